@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/export.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief Descriptors as rows of floats; nothing is copied or owned. */
+struct FeatureView {
+  /** \brief First value of the first descriptor. */
+  const float* data = nullptr;
+  /** \brief Number of descriptors. */
+  std::size_t size = 0;
+  /** \brief Values in a descriptor. */
+  std::size_t dimension = 0;
+  /** \brief Floats from one descriptor to the next, >= dimension. */
+  std::size_t stride = 0;
+};
+
+/** \brief A query descriptor and one of its nearest target descriptors. */
+struct FeatureMatch {
+  std::int32_t query;
+  std::int32_t match;
+  /** \brief Squared Euclidean distance in feature space. */
+  float squared_distance;
+};
+
+/** \brief The k nearest target descriptors of each query descriptor, by exhaustive search.
+ *
+ * Rows are ordered by query, then distance, then target index; ties go to the smaller
+ * target index. Descriptors with a value that is not finite are skipped on both sides.
+ * The same on every SIMD variant and number of threads.
+ * \param[in] queries descriptors to find matches for
+ * \param[in] targets descriptors to search; same dimension
+ * \param[in] k matches a query, >= 1; fewer where there are fewer targets
+ * \param[in] num_threads CPU threads; 0 takes as many as there are processors
+ * \throws std::invalid_argument if the dimensions differ, a stride is below the
+ * dimension, k is 0 or a size does not fit 31 bits
+ */
+PCL_FLASHREG_EXPORT std::vector<FeatureMatch>
+matchFeatures(const FeatureView& queries,
+              const FeatureView& targets,
+              std::size_t k = 1,
+              unsigned num_threads = 0);
+
+} // namespace pcl_flashreg

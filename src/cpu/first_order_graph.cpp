@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+// Stage 1: the compatibility graph as a bit matrix, Eq. (dis) and (fog).
+//
+// The exact test takes two square roots a pair. Most pairs are decided without them: with
+// a and b the squared lengths, D = a - b, S = a + b, p = (sqrt a - sqrt b)^2 and
+// q = (sqrt a + sqrt b)^2, one has pq = D^2 and p + q = 2 S, hence
+//
+//   (p - tau^2) (q - tau^2) = D^2 - 2 tau^2 S + tau^4 =: E,
+//
+// so that wherever q > tau^2 (any edge has sqrt q > r >= 2 tau), |sqrt a - sqrt b| < tau is
+// E < 0; and sqrt q > r follows from 2 S - tau^2 > r^2 and implies 2 S > r^2. With a and b
+// from norms and inner products that is 8 + 4 operations a pair and no root. It is carried
+// out in single precision with a bound on everything that rounding can do to it; pairs
+// inside the bound, a few in a hundred edges, are left to the exact test.
+
+#include "cpu/stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pcl_flashreg {
+namespace cpu {
+namespace {
+
+/** \brief Blocks of 64 in a tile: 8 words, so that no two tiles write to one cache line. */
+constexpr std::size_t TILE_BLOCKS = 8;
+
+/** \brief Half the spacing of floats at 1. */
+constexpr double UNIT_ROUNDOFF = 1.0 / (1 << 24);
+
+/** \brief Thresholds of the filter; see EdgeTestInput and the derivation above.
+ *
+ * With u the unit roundoff and R the radius of the points, a and b carry errors of at most
+ * 16 u R^2 from norms and products, D and S 36 and 40 u R^2. E then is off by at most
+ * 737 u R^3 tau near its zero (|D| is below 8 R tau there; beyond, E exceeds 48 R^2 tau^2),
+ * and the exact test's own rounding, at most 16 u R in |sqrt a - sqrt b|, moves the zero
+ * by another 512 u R^3 tau. The bounds below round these up.
+ */
+void
+setThresholds(EdgeTestInput& in, double radius)
+{
+  const double R = radius * (1 + 1e-6);
+  const double tau = in.length_tolerance;
+  const double r = in.min_length_sum;
+  in.use_filter = R >= 1e-6 && R <= 1e6 && tau <= R && tau >= 1e-6 * R && r >= 2 * tau &&
+                  r <= 4 * R;
+  const double defect_margin = 2048 * UNIT_ROUNDOFF * R * R * R * tau;
+  const double sum_margin = 128 * UNIT_ROUNDOFF * R * R + 1e-6 * r * r;
+  in.minus_two_tau2 = static_cast<float>(-2 * tau * tau);
+  in.tau4 = static_cast<float>(tau * tau * tau * tau);
+  in.sure_defect = static_cast<float>(-defect_margin);
+  in.possible_defect = static_cast<float>(defect_margin);
+  in.sure_sum = static_cast<float>((r * r + tau * tau) / 2 + sum_margin);
+  in.possible_sum = static_cast<float>(r * r / 2 - sum_margin);
+}
+
+} // namespace
+
+EdgeTestInput
+Stages::edgeTestInput()
+{
+  const Problem& p = *problem_;
+  source_norm_.resize(p.padded_size);
+  target_norm_.resize(p.padded_size);
+  for (std::size_t i = 0; i < p.padded_size; ++i) {
+    const Vec3 s = p.source(i), t = p.target(i);
+    source_norm_[i] = static_cast<float>(dot(s, s));
+    target_norm_[i] = static_cast<float>(dot(t, t));
+  }
+  EdgeTestInput in{};
+  in.sx = p.sx.data();
+  in.sy = p.sy.data();
+  in.sz = p.sz.data();
+  in.tx = p.tx.data();
+  in.ty = p.ty.data();
+  in.tz = p.tz.data();
+  in.source_norm = source_norm_.data();
+  in.target_norm = target_norm_.data();
+  in.length_tolerance = parameters_->length_tolerance;
+  in.min_length_sum = parameters_->min_length_sum;
+  setThresholds(in, p.radius);
+  return in;
+}
+
+/** \brief Tests one block of 64 x 64 pairs.
+ * \param[out] edges word r holds row r, bit c column c
+ */
+void
+Stages::testBlock(const EdgeTestInput& input,
+                  std::size_t row_block,
+                  std::size_t column_block,
+                  std::uint64_t edges[WORD_BITS])
+{
+  std::uint64_t possible[WORD_BITS];
+  const std::size_t row0 = row_block * WORD_BITS;
+  const std::size_t column0 = column_block * WORD_BITS;
+  const Kernels& kernels = input.use_filter ? kernels_ : scalarKernels();
+  kernels.edgeTest(input, row0, column0, edges, possible);
+  for (std::size_t r = 0; r < WORD_BITS; ++r)
+    for (std::uint64_t open = possible[r] & ~edges[r]; open != 0; open &= open - 1) {
+      const int c = __builtin_ctzll(open);
+      if (compatible(problem_->pair(row0 + r),
+                     problem_->pair(column0 + c),
+                     input.length_tolerance,
+                     input.min_length_sum))
+        edges[r] |= std::uint64_t{1} << c;
+    }
+  if (row_block == column_block)
+    for (std::size_t r = 0; r < WORD_BITS; ++r)
+      edges[r] &= ~(std::uint64_t{1} << r);
+}
+
+/** \brief Fills a tile of blocks and its mirror image. Both are put together on the side
+ * and then copied by whole cache lines. */
+void
+Stages::fillTile(const EdgeTestInput& input, std::size_t tile_row, std::size_t tile_column)
+{
+  const std::size_t blocks = problem_->padded_size / WORD_BITS;
+  const std::size_t row0 = tile_row * TILE_BLOCKS, column0 = tile_column * TILE_BLOCKS;
+  const std::size_t rows = std::min(TILE_BLOCKS, blocks - row0);
+  const std::size_t columns = std::min(TILE_BLOCKS, blocks - column0);
+  alignas(64) std::uint64_t upper[TILE_BLOCKS * WORD_BITS][TILE_BLOCKS] = {};
+  alignas(64) std::uint64_t lower[TILE_BLOCKS * WORD_BITS][TILE_BLOCKS] = {};
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t j = tile_row == tile_column ? i : 0; j < columns; ++j) {
+      std::uint64_t edges[WORD_BITS];
+      testBlock(input, row0 + i, column0 + j, edges);
+      for (std::size_t r = 0; r < WORD_BITS; ++r)
+        upper[i * WORD_BITS + r][j] = edges[r];
+      kernels_.transpose(edges);
+      for (std::size_t r = 0; r < WORD_BITS; ++r)
+        lower[j * WORD_BITS + r][i] = edges[r];
+    }
+  const auto copy = [this](const std::uint64_t(*from)[TILE_BLOCKS],
+                           std::size_t count,
+                           std::size_t first_row,
+                           std::size_t first_word) {
+    for (std::size_t r = 0; r < count * WORD_BITS; ++r)
+      std::memcpy(graph_.data() + (first_row * WORD_BITS + r) * words_ + first_word,
+                  from[r],
+                  TILE_BLOCKS * sizeof(std::uint64_t));
+  };
+  if (tile_row == tile_column)
+    for (std::size_t r = 0; r < rows * WORD_BITS; ++r)
+      for (std::size_t j = 0; j < r / WORD_BITS; ++j)
+        upper[r][j] = lower[r][j];
+  else
+    copy(lower, columns, column0, row0);
+  copy(upper, rows, row0, column0);
+}
+
+void
+Stages::firstOrderGraph()
+{
+  const std::size_t blocks = problem_->padded_size / WORD_BITS;
+  words_ = (blocks + TILE_BLOCKS - 1) / TILE_BLOCKS * TILE_BLOCKS;
+  graph_.resize(problem_->padded_size * words_);
+  const EdgeTestInput input = edgeTestInput();
+  const std::size_t tiles = words_ / TILE_BLOCKS;
+  // Tiles of the upper triangle, numbered row by row.
+  pool_.forEach(tiles * (tiles + 1) / 2, [&](std::size_t number, std::size_t) {
+    std::size_t tile_row = 0;
+    while (number >= tiles - tile_row)
+      number -= tiles - tile_row++;
+    fillTile(input, tile_row, tile_row + number);
+  });
+}
+
+} // namespace cpu
+} // namespace pcl_flashreg

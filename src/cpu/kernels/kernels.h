@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+// The hot loops, one table of functions an instruction set. Plain types only: the files
+// that fill the tables are compiled with instruction-set flags, and whatever inline
+// function they shared with the rest of the program could be linked in their version.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pcl_flashreg {
+namespace cpu {
+
+/** \brief Input of the edge test for blocks of 64 x 64 correspondences. */
+struct EdgeTestInput {
+  /** \brief Centred coordinates; 64-byte aligned, NaN beyond the last. */
+  const float *sx, *sy, *sz, *tx, *ty, *tz;
+  /** \brief Squared norms of the source and target points. */
+  const float *source_norm, *target_norm;
+  /** \brief tau and r, for the exact test. */
+  float length_tolerance, min_length_sum;
+  /** \brief Whether the thresholds below hold; if not, only scalarKernels() may be used. */
+  bool use_filter;
+  /** \brief -2 tau^2 and tau^4. */
+  float minus_two_tau2, tau4;
+  /** \brief Edge for certain if E < sure_defect and S > sure_sum; possibly an edge if
+   * E < possible_defect and S > possible_sum. See first_order_graph.cpp. */
+  float sure_defect, possible_defect;
+  float sure_sum, possible_sum;
+};
+
+/** \brief Input of the residual test of one pose on all correspondences. */
+struct ResidualInput {
+  const float *sx, *sy, *sz, *tx, *ty, *tz;
+  /** \brief Rotation, row-major, and translation. */
+  float r[9];
+  float t[3];
+  /** \brief Inlier for certain if the squared residual, however it is rounded, is below
+   * `sure`; possibly one if it is below `possible`. */
+  float sure, possible;
+};
+
+/** \brief Input of the distance filter of feature matching. */
+struct FeatureBlock {
+  /** \brief Targets, 32 at a time: block b holds dimension d of target 32 b + i at
+   * [(b * dimension + d) * 32 + i]; 64-byte aligned. */
+  const float* targets;
+  /** \brief Squared norm of every target; infinite for padding and invalid ones. */
+  const float* target_norms;
+  std::size_t dimension;
+};
+
+/** \brief Number of targets in a block of FeatureBlock. */
+constexpr std::size_t FEATURE_BLOCK = 32;
+/** \brief Number of queries that featureCandidates() takes at a time. */
+constexpr std::size_t QUERY_BLOCK = 8;
+
+/** \brief The hot loops of one instruction set. */
+struct Kernels {
+  /** \brief As it is spelled in the environment variable and the backend's name. */
+  const char* name;
+
+  /** \brief Edge test of 64 rows by 64 columns. Bit c of word r: the pair (row0 + r,
+   * column0 + c) is an edge for certain / possibly one. sure is a subset of possible. */
+  void (*edgeTest)(const EdgeTestInput& input,
+                   std::size_t row0,
+                   std::size_t column0,
+                   std::uint64_t sure[64],
+                   std::uint64_t possible[64]);
+
+  /** \brief Transposes a 64 x 64 bit matrix in place. */
+  void (*transpose)(std::uint64_t block[64]);
+
+  /** \brief Number of bits that `row` shares with each of `count` rows of a bit matrix.
+   * Rows are `stride` words apart; the first `words` words are compared. Beyond them, up
+   * to the next multiple of 8, `row` must hold zeros. */
+  void (*commonNeighbours)(const std::uint64_t* row,
+                           const std::uint64_t* matrix,
+                           std::size_t stride,
+                           std::size_t words,
+                           const std::uint32_t* rows,
+                           std::size_t count,
+                           std::uint32_t* common);
+
+  /** \brief Number of bits set in n words. */
+  std::size_t (*countBits)(const std::uint64_t* words, std::size_t n);
+
+  /** \brief The bits that two rows share from word `first` on, ascending; in word `first`
+   * only those of `mask` count.
+   * \param[out] bits, ranks_a, ranks_b index of each shared bit, and how many bits of
+   * either row stand before it (from word `first` on, under the mask)
+   * \return how many are shared
+   */
+  std::size_t (*intersect)(const std::uint64_t* a,
+                           const std::uint64_t* b,
+                           std::size_t first,
+                           std::size_t words,
+                           std::uint64_t mask,
+                           std::uint32_t* bits,
+                           std::uint32_t* ranks_a,
+                           std::uint32_t* ranks_b);
+
+  /** \brief Residual test of the correspondences from 64 * first_word on. Bit c of word
+   * w: correspondence 64 * (first_word + w) + c is an inlier for certain / possibly. */
+  void (*residualTest)(const ResidualInput& input,
+                       std::size_t first_word,
+                       std::size_t words,
+                       std::uint64_t* sure,
+                       std::uint64_t* possible);
+
+  /** \brief Bit i of candidates[q]: |t|^2 - 2 q.t of target 32 * block + i is below
+   * thresholds[q]. Queries are QUERY_BLOCK rows of `dimension` floats. */
+  void (*featureCandidates)(const FeatureBlock& input,
+                            std::size_t block,
+                            const float* queries,
+                            const float* thresholds,
+                            std::uint32_t* candidates);
+};
+
+/** \brief The variants that this processor runs, fastest first; never empty.
+ * \param[out] count how many
+ */
+const Kernels* const*
+availableKernels(std::size_t& count);
+
+/** \brief The variant that takes the exact formulas throughout; it runs anywhere. */
+const Kernels&
+scalarKernels();
+
+/** \brief The variant that the environment variable PCL_FLASHREG_CPU names, or the fastest.
+ * \throws std::invalid_argument if the name is unknown, BackendError if this processor
+ * lacks the instructions
+ */
+const Kernels&
+selectKernels();
+
+} // namespace cpu
+} // namespace pcl_flashreg

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include <pcl_flashreg/parameters.h>
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace pcl_flashreg {
+namespace {
+
+template <typename Value>
+[[noreturn]] void
+reject(const char* name, Value value, const std::string& range)
+{
+  std::ostringstream message;
+  message << name << " = " << value << " is out of range: " << range;
+  throw std::invalid_argument(message.str());
+}
+
+void
+checkPositive(const char* name, double value)
+{
+  if (!(value > 0) || !std::isfinite(value))
+    reject(name, value, "it must be a finite length > 0");
+}
+
+void
+checkRange(const char* name, int value, int least, int most)
+{
+  if (value < least || value > most)
+    reject(name,
+           value,
+           "it must lie in [" + std::to_string(least) + ", " + std::to_string(most) +
+               "]");
+}
+
+} // namespace
+
+Parameters
+Parameters::fromResolution(double resolution)
+{
+  checkPositive("resolution", resolution);
+  Parameters parameters;
+  parameters.length_tolerance = static_cast<float>(0.24 * resolution);
+  parameters.min_length_sum = static_cast<float>(3 * resolution);
+  parameters.inlier_distance = static_cast<float>(2 * resolution);
+  parameters.validate(); // a double that is a zero or an infinity as a float
+  return parameters;
+}
+
+void
+Parameters::validate() const
+{
+  checkPositive("length_tolerance", length_tolerance);
+  if (!(min_length_sum >= 0) || !std::isfinite(min_length_sum))
+    reject("min_length_sum", min_length_sum, "it must be a finite length >= 0");
+  checkPositive("inlier_distance", inlier_distance);
+  checkRange("max_correspondences", max_correspondences, 3, 200000);
+  checkRange("pivots", pivots, 1, 1000000);
+  checkRange("cliques_per_pivot", cliques_per_pivot, 1, 16);
+  checkRange("row_capacity", row_capacity, 1, 4096);
+  checkRange("pool_capacity", pool_capacity, 1, row_capacity);
+  checkRange("second_order", static_cast<int>(second_order), 0, 2);
+  checkRange("score_metric", static_cast<int>(score_metric), 0, 2);
+  checkRange("refinement_iterations", refinement_iterations, 0, 1000);
+  checkRange("max_hypotheses", max_hypotheses, 1, 64);
+  if (min_inliers < 3)
+    reject("min_inliers", min_inliers, "it must be >= 3");
+  if (!(min_distinctness >= 1) || !std::isfinite(min_distinctness))
+    reject("min_distinctness", min_distinctness, "it must be finite and >= 1");
+}
+
+} // namespace pcl_flashreg

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "problem.h"
+#include "stage_clock.h"
+#include "trace.h"
+
+#include <pcl_flashreg/parameters.h>
+#include <pcl_flashreg/result.h>
+
+#include <optional>
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief What the stages found, in the centred frames. */
+struct PoseEstimate {
+  Status status = Status::NoClique;
+  SecondOrder second_order = SecondOrder::Exact;
+  /** \brief Distinct hypotheses, refined, best first; empty unless status is Ok. */
+  std::vector<ScoredPose> hypotheses;
+  /** \brief Rows of the problem that agree with the first, ascending. */
+  std::vector<int> inliers;
+};
+
+/** \brief The method, once for every backend (docs/method.md): stages 1 to 7.
+ *
+ * \tparam Stages a backend's buffers and its form of every stage; a stage reads what the
+ * ones before it left there
+ * \param[in] guess a pose in the centred frames that is verified with the others
+ */
+template <typename Stages>
+PoseEstimate
+runPipeline(Stages& stages,
+            const Problem& problem,
+            const Parameters& parameters,
+            const std::optional<Pose>& guess,
+            StageClock& clock,
+            Trace* trace)
+{
+  stages.begin(problem, parameters);
+
+  stages.firstOrderGraph(); // Eq. (dis), (fog)
+  clock.finish(&StageTimings::first_order_graph);
+
+  stages.secondOrderGraph(); // Eq. (sog), (sog_trunc), (ell_sog)
+  clock.finish(&StageTimings::second_order_graph);
+
+  stages.pivots(); // Eq. (pivot), Alg. 1 phase 1
+  clock.finish(&StageTimings::pivots);
+
+  stages.cliques(); // Eq. (common), (clique), Alg. 1 phase 2
+  clock.finish(&StageTimings::cliques);
+
+  stages.hypotheses(guess); // three-point alignment
+  clock.finish(&StageTimings::hypotheses);
+
+  stages.verification(); // residuals of all correspondences
+  clock.finish(&StageTimings::verification);
+
+  PoseEstimate estimate = stages.refinement(); // reweighted alignment, Eq. (objective)
+  clock.finish(&StageTimings::refinement);
+
+  if (trace)
+    stages.copyTo(*trace);
+  return estimate;
+}
+
+} // namespace pcl_flashreg

@@ -1,0 +1,32 @@
+# Builds and runs the consumer's source with what pkg-config says.
+#   COMPONENT  core or pcl
+#   FLAGS      compiler flags of the consumer
+#   NEEDS      instruction sets that the flags take for granted
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+skip_unless_processor_has(${NEEDS})
+if(skipped)
+  return()
+endif()
+find_program(PKG_CONFIG NAMES pkg-config pkgconf)
+if(NOT PKG_CONFIG)
+  message("SKIPPED: no pkg-config")
+  return()
+endif()
+file(COPY ${PREFIX}/ DESTINATION ${WORK_DIR}/moved)
+set(library ${WORK_DIR}/moved/${LIBDIR})
+set(ENV{PKG_CONFIG_PATH} ${library}/pkgconfig)
+set(module pcl_flashreg_core)
+if(COMPONENT STREQUAL "pcl")
+  set(module pcl_flashreg)
+endif()
+run(${PKG_CONFIG} --modversion ${module})
+string(STRIP "${run_output}" version)
+if(NOT version STREQUAL VERSION)
+  message(FATAL_ERROR "${module} is ${version}, not ${VERSION}")
+endif()
+run(${PKG_CONFIG} --cflags --libs ${module})
+separate_arguments(package_flags UNIX_COMMAND "${run_output}")
+separate_arguments(own_flags UNIX_COMMAND "${FLAGS}")
+run(${CXX} -std=c++17 -O1 ${own_flags} ${CMAKE_CURRENT_LIST_DIR}/consumer/${COMPONENT}.cpp -o consumer
+  ${package_flags} -Wl,-rpath,${library})
+run(${WORK_DIR}/consumer)

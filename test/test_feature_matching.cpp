@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "cpu/kernels/kernels.h"
+#include "support/made_correspondences.h"
+
+#include <pcl_flashreg/feature_matching.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+namespace pcl_flashreg {
+namespace {
+
+struct Features {
+  std::vector<float> values;
+  std::size_t dimension, stride;
+
+  FeatureView view() const
+  {
+    return {values.data(), values.size() / stride, dimension, stride};
+  }
+};
+
+Features
+makeFeatures(std::size_t size, std::size_t dimension, std::size_t stride, int seed)
+{
+  made::Random random(seed);
+  Features features{{}, dimension, stride};
+  for (std::size_t i = 0; i < size * stride; ++i) {
+    const double value = random.uniform(-20, 80);
+    features.values.push_back(value < 0 ? 0.0f : static_cast<float>(value));
+  }
+  return features;
+}
+
+/** \brief All distances in double, sorted. */
+std::vector<FeatureMatch>
+exhaustive(const FeatureView& queries, const FeatureView& targets, std::size_t k)
+{
+  std::vector<FeatureMatch> matches;
+  const auto distance = [&](std::size_t q, std::size_t t) {
+    double sum = 0;
+    for (std::size_t d = 0; d < queries.dimension; ++d) {
+      const double difference =
+          static_cast<double>(queries.data[q * queries.stride + d]) -
+          targets.data[t * targets.stride + d];
+      sum += difference * difference;
+    }
+    return sum;
+  };
+  for (std::size_t q = 0; q < queries.size; ++q) {
+    std::vector<std::pair<double, std::int32_t>> all;
+    for (std::size_t t = 0; t < targets.size; ++t)
+      if (std::isfinite(distance(q, t)))
+        all.push_back({distance(q, t), static_cast<std::int32_t>(t)});
+    std::sort(all.begin(), all.end());
+    for (std::size_t i = 0; i < std::min(k, all.size()); ++i)
+      matches.push_back({static_cast<std::int32_t>(q),
+                         all[i].second,
+                         static_cast<float>(all[i].first)});
+  }
+  return matches;
+}
+
+void
+expectSame(const std::vector<FeatureMatch>& a, const std::vector<FeatureMatch>& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].query, b[i].query) << i;
+    ASSERT_EQ(a[i].match, b[i].match) << i;
+    ASSERT_EQ(a[i].squared_distance, b[i].squared_distance) << i;
+  }
+}
+
+class Matching : public testing::TestWithParam<const char*> {
+protected:
+  void SetUp() override
+  {
+    setenv("PCL_FLASHREG_CPU", GetParam(), 1);
+  }
+  void TearDown() override
+  {
+    unsetenv("PCL_FLASHREG_CPU");
+  }
+};
+
+TEST_P(Matching, EqualsExhaustiveSearchInDouble)
+{
+  for (const std::size_t dimension : {1, 3, 33, 125})
+    for (const std::size_t k : {1, 2, 7}) {
+      const Features queries = makeFeatures(130, dimension, dimension, 1);
+      const Features targets = makeFeatures(517, dimension, dimension + 2, 2);
+      expectSame(matchFeatures(queries.view(), targets.view(), k, 2),
+                 exhaustive(queries.view(), targets.view(), k));
+    }
+}
+
+TEST_P(Matching, TiesGoToTheSmallerIndex)
+{
+  Features targets = makeFeatures(100, 33, 33, 3);
+  for (std::size_t copy : {20u, 50u, 99u})
+    std::copy_n(
+        targets.values.begin() + 7 * 33, 33, targets.values.begin() + copy * 33);
+  const FeatureView query{targets.values.data() + 50 * 33, 1, 33, 33};
+  const std::vector<FeatureMatch> matches = matchFeatures(query, targets.view(), 4);
+  ASSERT_EQ(matches.size(), 4u);
+  EXPECT_EQ(matches[0].match, 7);
+  EXPECT_EQ(matches[1].match, 20);
+  EXPECT_EQ(matches[2].match, 50);
+  EXPECT_EQ(matches[3].match, 99);
+  EXPECT_EQ(matches[3].squared_distance, 0);
+}
+
+TEST_P(Matching, SkipsDescriptorsThatAreNotFinite)
+{
+  Features queries = makeFeatures(20, 33, 33, 4), targets = makeFeatures(40, 33, 33, 5);
+  queries.values[3 * 33 + 5] = std::numeric_limits<float>::quiet_NaN();
+  targets.values[8 * 33] = std::numeric_limits<float>::infinity();
+  targets.values[9 * 33 + 32] = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<FeatureMatch> matches =
+      matchFeatures(queries.view(), targets.view(), 40);
+  EXPECT_EQ(matches.size(), 19u * 38u);
+  for (const FeatureMatch& match : matches) {
+    EXPECT_NE(match.query, 3);
+    EXPECT_TRUE(match.match != 8 && match.match != 9);
+  }
+}
+
+/** \brief The variants that this machine has. */
+std::vector<const char*>
+variants()
+{
+  std::size_t count = 0;
+  const cpu::Kernels* const* kernels = cpu::availableKernels(count);
+  std::vector<const char*> names;
+  for (std::size_t i = 0; i < count; ++i)
+    names.push_back(kernels[i]->name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, Matching, testing::ValuesIn(variants()));
+
+TEST(MatchingInput, EmptyGivesNothing)
+{
+  const Features some = makeFeatures(5, 33, 33, 6);
+  EXPECT_TRUE(matchFeatures({}, some.view()).empty());
+  EXPECT_TRUE(matchFeatures(some.view(), {}).empty());
+}
+
+TEST(MatchingInput, RefusesWhatMakesNoSense)
+{
+  const Features a = makeFeatures(5, 33, 33, 7), b = makeFeatures(5, 32, 32, 8);
+  EXPECT_THROW(matchFeatures(a.view(), b.view()), std::invalid_argument);
+  EXPECT_THROW(matchFeatures(a.view(), a.view(), 0), std::invalid_argument);
+  FeatureView overlapping = a.view();
+  overlapping.stride = 32;
+  EXPECT_THROW(matchFeatures(overlapping, a.view()), std::invalid_argument);
+  FeatureView null = a.view();
+  null.data = nullptr;
+  EXPECT_THROW(matchFeatures(a.view(), null), std::invalid_argument);
+}
+
+} // namespace
+} // namespace pcl_flashreg
