@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/estimator.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pcl_flashreg::benchmark {
+
+/** \brief A stage's name, as in the method and the JSON, and where its time stands. */
+using StageField = std::pair<const char*, double StageTimings::*>;
+
+/** \brief All stages in order, the total last. */
+constexpr std::array<StageField, 9> STAGES = {{
+    {"preparation", &StageTimings::preparation},
+    {"first_order_graph", &StageTimings::first_order_graph},
+    {"second_order_graph", &StageTimings::second_order_graph},
+    {"pivots", &StageTimings::pivots},
+    {"cliques", &StageTimings::cliques},
+    {"hypotheses", &StageTimings::hypotheses},
+    {"verification", &StageTimings::verification},
+    {"refinement", &StageTimings::refinement},
+    {"total", &StageTimings::total},
+}};
+
+/** \brief Milliseconds. */
+struct Spread {
+  double median, p10, p90, least;
+};
+
+/** \brief One problem, timed. */
+struct Measurement {
+  std::string name;
+  std::size_t size = 0;
+  Result result;
+  /** \brief First call of a fresh estimator: threads and memory are made here. */
+  double cold_ms = 0;
+  /** \brief By stage, of the warm calls. */
+  std::array<Spread, STAGES.size()> stages;
+};
+
+/** \brief Times the estimation from correspondences to pose.
+ * \param[in] runs warm calls that are counted
+ */
+Measurement
+measure(const std::string& name,
+        const CorrespondenceView<double>& correspondences,
+        const Parameters& parameters,
+        unsigned threads,
+        int runs);
+
+} // namespace pcl_flashreg::benchmark
