@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl/pcl_base.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+namespace pcl_flashreg {
+
+/** \brief Keypoints of a cloud (one a voxel) and their FPFH descriptors; same size and
+ * order. Both pointers are null until something was computed. */
+struct FpfhCloud {
+  /** \brief Frame and unit of the cloud that they come from. */
+  pcl::PointCloud<pcl::PointXYZ>::Ptr points;
+  pcl::PointCloud<pcl::FPFHSignature33>::Ptr features;
+};
+
+/** \brief Wall-clock time of each step in milliseconds. */
+struct FpfhTimings {
+  double voxel_grid = 0;
+  double normals = 0;
+  double features = 0;
+};
+
+/** \brief Downsamples a cloud and describes what is left by Fast Point Feature
+ * Histograms: voxel : radius of the normals : radius of the features = 1 : 2 : 5.
+ *
+ * Points with a coordinate that is not finite are skipped, whatever is_dense says;
+ * voxels without a finite normal or descriptor (too few neighbours) are left out.
+ * Normals point to the cloud's sensor_origin_. The same on every number of threads.
+ * \param[in] cloud any point type with x, y, z
+ * \param[in] indices points of the cloud to use; empty for all of them
+ * \param[in] resolution voxel size, in the unit of the cloud, > 0 and finite
+ * \param[in] num_threads CPU threads; 0 takes as many as there are processors
+ * \param[out] timings of the three steps, if not null
+ * \return possibly without any point, never with null pointers
+ * \throws std::invalid_argument if the resolution is not > 0 and finite; if it is so
+ * small for the extent of the cloud that pcl::VoxelGrid can't number the voxels (more
+ * than 2^31); if an index is not one of the cloud
+ */
+template <typename PointT>
+FpfhCloud
+computeFpfh(const pcl::PointCloud<PointT>& cloud,
+            const pcl::Indices& indices,
+            double resolution,
+            unsigned num_threads = 0,
+            FpfhTimings* timings = nullptr);
+
+/** \brief A resolution for a cloud that nobody gave one for, in the unit of the cloud.
+ *
+ * The voxel size at which the middle of the cloud (what is within the middle 80 % on
+ * every axis: points far off don't matter) occupies 2500 voxels, or a quarter as many
+ * as it has distinct points where that is fewer; rounded to one of 1, 1.25, 1.6, 2,
+ * 2.5, 3.15, 4, 5, 6.3, 8 times a power of ten, so that clouds which are nearly alike
+ * mostly get the same. That gives about 5 cm for a room, 2.5 mm for a scan of a 15 cm
+ * object, 15 cm to 50 cm for a lidar sweep.
+ *
+ * \param[in] cloud any point type with x, y, z
+ * \param[in] indices points of the cloud to use; empty for all of them
+ * \throws std::invalid_argument if there are fewer than two distinct finite points; if
+ * an index is not one of the cloud
+ */
+template <typename PointT>
+double
+estimateResolution(const pcl::PointCloud<PointT>& cloud,
+                   const pcl::Indices& indices = {});
+
+/** \brief The voxel size that a cloud was downsampled with, from its points alone; not
+ * rounded, in the unit of the cloud.
+ *
+ * The voxel size at which the middle of the cloud (see estimateResolution()) occupies
+ * 0.65 times as many voxels as it has points, which is right to within about a quarter
+ * for clouds from pcl::VoxelGrid.
+ *
+ * \param[in] cloud any point type with x, y, z
+ * \param[in] indices points of the cloud to use; empty for all of them
+ * \throws std::invalid_argument as estimateResolution()
+ */
+template <typename PointT>
+double
+estimateVoxelSize(const pcl::PointCloud<PointT>& cloud,
+                  const pcl::Indices& indices = {});
+
+} // namespace pcl_flashreg
+
+#include <pcl_flashreg/impl/fpfh_features.hpp>

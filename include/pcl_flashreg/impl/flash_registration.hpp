@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/flash_registration.h>
+#include <pcl_flashreg/impl/packed_features.hpp>
+
+#include <pcl/console/print.h>
+#include <pcl/impl/pcl_base.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <numeric>
+#include <sstream>
+#include <type_traits>
+
+namespace pcl_flashreg {
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+FlashRegistration<PointSource, PointTarget, FeatureT>::FlashRegistration()
+    : feature_representation_(detail::defaultFeatureRepresentation<FeatureT>())
+{
+  reg_name_ = "FlashRegistration";
+  this->setSearchMethodTarget(
+      typename LazyKdTree<PointTarget>::Ptr(new LazyKdTree<PointTarget>));
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::setInputSource(
+    const PointCloudSourceConstPtr& cloud)
+{
+  resetResult();
+  source_cache_.reset();
+  if (cloud)
+    Base::setInputSource(cloud);
+  else
+    PCL_ERROR("[pcl::%s::setInputSource] No cloud given!\n", getClassName().c_str());
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::setInputTarget(
+    const PointCloudTargetConstPtr& cloud)
+{
+  resetResult();
+  target_cache_.reset();
+  if (cloud)
+    Base::setInputTarget(cloud);
+  else
+    PCL_ERROR("[pcl::%s::setInputTarget] No cloud given!\n", getClassName().c_str());
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::setSourceFeatures(
+    const FeatureCloudConstPtr& features)
+{
+  if (features && !features->empty())
+    source_features_ = features;
+  else
+    PCL_ERROR("[pcl::%s::setSourceFeatures] No features given!\n",
+              getClassName().c_str());
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::setTargetFeatures(
+    const FeatureCloudConstPtr& features)
+{
+  if (features && !features->empty())
+    target_features_ = features;
+  else
+    PCL_ERROR("[pcl::%s::setTargetFeatures] No features given!\n",
+              getClassName().c_str());
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::clearFeatures()
+{
+  source_features_.reset();
+  target_features_.reset();
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+bool
+FlashRegistration<PointSource, PointTarget, FeatureT>::hasInlierDistance() const
+{
+  // pcl::Registration's own default stands for "no limit".
+  return corr_dist_threshold_ < std::sqrt(std::numeric_limits<double>::max());
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+Parameters
+FlashRegistration<PointSource, PointTarget, FeatureT>::getParameters() const
+{
+  Parameters parameters;
+  if (parameters_)
+    parameters = *parameters_;
+  else if (getResolution() != 0)
+    parameters = Parameters::fromResolution(getResolution());
+  if (hasInlierDistance())
+    parameters.inlier_distance = static_cast<float>(corr_dist_threshold_);
+  return parameters;
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::align(PointCloudSource& output,
+                                                             const Matrix4& guess)
+{
+  // PCL hands the tree of the source to a member that wants one of the target's type.
+  constexpr bool base_compiles = std::is_convertible_v<
+      typename Base::KdTreeReciprocalPtr,
+      typename Base::CorrespondenceEstimation::KdTreeReciprocalPtr>;
+  if constexpr (base_compiles)
+    Base::align(output, guess);
+  else if (prepare(output))
+    computeTransformation(output, guess);
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+bool
+FlashRegistration<PointSource, PointTarget, FeatureT>::prepare(PointCloudSource& output)
+{
+  if (!target_) {
+    PCL_ERROR("[pcl::registration::%s::compute] No input target dataset was given!\n",
+              getClassName().c_str());
+    return false;
+  }
+  if (target_cloud_updated_ && !force_no_recompute_) {
+    tree_->setInputCloud(target_);
+    target_cloud_updated_ = false;
+  }
+  if (!pcl::PCLBase<PointSource>::initCompute())
+    return false;
+  const bool whole = indices_->size() == input_->size();
+  const auto width = whole ? input_->width : indices_->size();
+  const auto height = whole ? input_->height : 1;
+  output.header = input_->header;
+  output.is_dense = input_->is_dense;
+  // In this order and in place, since the output may be the source.
+  output.resize(indices_->size());
+  for (std::size_t i = 0; i < indices_->size(); ++i) {
+    output[i] = (*input_)[(*indices_)[i]];
+    output[i].data[3] = 1;
+  }
+  output.width = static_cast<std::uint32_t>(width);
+  output.height = static_cast<std::uint32_t>(height);
+  return true;
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::computeTransformation(
+    PointCloudSource& output, const Matrix4& guess)
+{
+  const detail::Stopwatch total;
+  resetResult();
+  try {
+    checkInput(output);
+    const std::optional<RigidTransform> hypothesis = hypothesisFrom(guess);
+    findCorrespondences();
+    const Parameters parameters = getParameters();
+    inlier_distance_ = parameters.inlier_distance;
+    result_ = estimator_.get().estimate(buffer_.view(), parameters, hypothesis);
+    timings_.estimation = result_.timings_ms;
+    if (result_.status == Status::Ok)
+      applyResult(output);
+    else
+      fail(toString(result_.status));
+  }
+  catch (const std::exception& error) {
+    result_ = {};
+    fail(error.what());
+  }
+  timings_.total = total.milliseconds();
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::checkInput(
+    const PointCloudSource& output) const
+{
+  std::ostringstream error;
+  if (!(inlier_fraction_ >= 0 && inlier_fraction_ <= 1))
+    error << "the inlier fraction is " << inlier_fraction_ << ", it must be in [0, 1]";
+  else if (k_correspondences_ <= 0)
+    error << "the correspondence randomness is " << k_correspondences_
+          << ", it must be > 0";
+  else if (!(resolution_ >= 0 && std::isfinite(resolution_)))
+    error << "the resolution is " << resolution_
+          << ", it must be > 0 and finite, or 0 to estimate it";
+  else if (indices_->empty())
+    error << "no source point is selected";
+  else if (static_cast<const void*>(&output) == target_.get())
+    error << "the output is the input target, which it overwrites";
+  // align() has copied the selected points onto the first ones already.
+  else if (&output == input_.get() && !fake_indices_)
+    error << "the output is the input source, while indices select points of it";
+  if (!error.str().empty())
+    throw std::invalid_argument(error.str());
+  for (const auto index : *indices_)
+    if (static_cast<std::size_t>(index) >= input_->size())
+      throw std::invalid_argument("index " + std::to_string(index) +
+                                  " is not one of a source of " +
+                                  std::to_string(input_->size()) + " points");
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+std::optional<RigidTransform>
+FlashRegistration<PointSource, PointTarget, FeatureT>::hypothesisFrom(
+    const Matrix4& guess)
+{
+  if (guess == Matrix4::Identity())
+    return std::nullopt;
+  const Eigen::Matrix3d rotation =
+      guess.template topLeftCorner<3, 3>().template cast<double>();
+  const bool rigid = guess.allFinite() && rotation.determinant() > 0 &&
+                     (rotation * rotation.transpose()).isIdentity(1e-3) &&
+                     guess.row(3) == Matrix4::Identity().row(3);
+  if (!rigid)
+    throw std::invalid_argument("the guess is not a rigid transformation");
+  RigidTransform hypothesis;
+  hypothesis.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  hypothesis.translation =
+      guess.template topRightCorner<3, 1>().template cast<double>();
+  return hypothesis;
+}
+
+} // namespace pcl_flashreg
+
+#include <pcl_flashreg/impl/flash_registration_matching.hpp>
+#include <pcl_flashreg/impl/flash_registration_results.hpp>

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+// The part of FlashRegistration that keeps and tells results.
+
+#pragma once
+
+#include <pcl_flashreg/flash_registration.h>
+
+#include <pcl/common/point_tests.h>
+#include <pcl/common/transforms.h>
+#include <pcl/console/print.h>
+
+namespace pcl_flashreg {
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::resetResult()
+{
+  converged_ = false;
+  final_transformation_ = transformation_ = Matrix4::Identity();
+  // A new one: a copy of this object shares the old one.
+  correspondences_.reset(new pcl::Correspondences);
+  result_ = {};
+  timings_ = {};
+  estimated_resolution_ = 0;
+  error_message_.clear();
+  inliers_ = pcl::Indices();
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::fail(const std::string& message)
+{
+  PCL_ERROR(
+      "[pcl::%s::computeTransformation] %s\n", getClassName().c_str(), message.c_str());
+  error_message_ = message;
+  inliers_ = pcl::Indices();
+  converged_ = false;
+  final_transformation_ = transformation_ = Matrix4::Identity();
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::applyResult(
+    PointCloudSource& output)
+{
+  const Eigen::Matrix4d T_target_source =
+      result_.T_target_source.template toMatrix<double>();
+  final_transformation_ = transformation_ = T_target_source.template cast<float>();
+  inliers_.reset();
+  converged_ = result_.converged;
+  const bool in_place = &output == input_.get();
+  // In place, the inliers can't be searched for, and the descriptors not be used,
+  // later.
+  if (inlier_fraction_ > 0 || in_place)
+    converged_ &= static_cast<float>(getInliers().size()) >=
+                  inlier_fraction_ * static_cast<float>(indices_->size());
+  if (in_place)
+    source_cache_.reset();
+  // The output holds a copy of the source by now. The pose is applied in double
+  // precision: coordinates may be large.
+  if constexpr (pcl::traits::has_normal<PointSource>::value)
+    pcl::transformPointCloudWithNormals(output, output, T_target_source);
+  else
+    pcl::transformPointCloud(output, output, T_target_source);
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+pcl::Correspondences
+FlashRegistration<PointSource, PointTarget, FeatureT>::getInlierCorrespondences() const
+{
+  pcl::Correspondences inliers;
+  inliers.reserve(result_.inliers.size());
+  for (const int row : result_.inliers)
+    inliers.push_back((*correspondences_)[row]);
+  return inliers;
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+const pcl::Indices&
+FlashRegistration<PointSource, PointTarget, FeatureT>::getInliers() const
+{
+  if (inliers_)
+    return *inliers_;
+  if (tree_->getInputCloud() != target_ && !force_no_recompute_)
+    tree_->setInputCloud(target_);
+  const RigidTransform& pose = result_.T_target_source;
+  inliers_.emplace();
+  pcl::Indices neighbor(1);
+  std::vector<float> squared_distance(1);
+  for (const auto index : *indices_) {
+    const PointSource& point = (*input_)[index];
+    if (!pcl::isXYZFinite(point))
+      continue;
+    const Eigen::Vector3f moved =
+        (pose.rotation * point.getVector3fMap().template cast<double>() +
+         pose.translation)
+            .template cast<float>();
+    PointTarget query;
+    query.getVector3fMap() = moved;
+    if (tree_->nearestKSearch(query, 1, neighbor, squared_distance) > 0 &&
+        squared_distance[0] < inlier_distance_ * inlier_distance_)
+      inliers_->push_back(index);
+  }
+  return *inliers_;
+}
+
+} // namespace pcl_flashreg

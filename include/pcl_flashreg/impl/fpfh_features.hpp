@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/fpfh_features.h>
+#include <pcl_flashreg/impl/voxel_count.hpp>
+
+#include <pcl/common/point_tests.h>
+#include <pcl/features/fpfh_omp.h>
+#include <pcl/features/normal_3d_omp.h>
+#include <pcl/filters/voxel_grid.h>
+#include <pcl/search/kdtree.h>
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+
+namespace pcl_flashreg {
+namespace detail {
+
+using PointsXYZ = pcl::PointCloud<pcl::PointXYZ>;
+using Normals = pcl::PointCloud<pcl::Normal>;
+using Fpfh33 = pcl::PointCloud<pcl::FPFHSignature33>;
+
+/** \brief Milliseconds since construction. */
+class Stopwatch {
+public:
+  double
+  milliseconds() const
+  {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+/** \brief The finite ones of the points that the indices name (all, if empty). */
+template <typename PointT>
+PointsXYZ::Ptr
+finitePoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
+{
+  PointsXYZ::Ptr points(new PointsXYZ);
+  points->header = cloud.header;
+  points->sensor_origin_ = cloud.sensor_origin_;
+  points->sensor_orientation_ = cloud.sensor_orientation_;
+  const auto append = [&points](const PointT& point) {
+    if (pcl::isXYZFinite(point))
+      points->push_back(pcl::PointXYZ(point.x, point.y, point.z));
+  };
+  if (indices.empty())
+    for (const PointT& point : cloud)
+      append(point);
+  for (const auto index : indices) {
+    if (static_cast<std::size_t>(index) >= cloud.size())
+      throw std::invalid_argument("index " + std::to_string(index) +
+                                  " is not one of a cloud of " +
+                                  std::to_string(cloud.size()) + " points");
+    append(cloud[index]);
+  }
+  return points;
+}
+
+/** \brief pcl::VoxelGrid numbers voxels with 32 bits, and returns the cloud unfiltered,
+ * with a warning only, where these don't suffice; so that is checked beforehand.
+ * \throws std::invalid_argument */
+inline void
+checkVoxelGrid(const PointsXYZ& points, double resolution)
+{
+  std::ostringstream error;
+  if (!(resolution > 0) || !std::isfinite(resolution)) {
+    error << "the resolution is " << resolution << ", it must be > 0 and finite";
+    throw std::invalid_argument(error.str());
+  }
+  double voxels = 1;
+  bool fits = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto bounds = std::minmax_element(
+        points.begin(), points.end(), [axis](const auto& a, const auto& b) {
+          return a.data[axis] < b.data[axis];
+        });
+    const double low = std::floor(bounds.first->data[axis] / resolution);
+    const double high = std::floor(bounds.second->data[axis] / resolution);
+    voxels *= high - low + 1;
+    fits &= std::max(std::abs(low), std::abs(high)) < std::numeric_limits<int>::max();
+  }
+  // One voxel an axis to spare: PCL divides in single precision.
+  if (fits && voxels < 0.5 * std::numeric_limits<int>::max())
+    return;
+  error << "the resolution " << resolution
+        << " is too small for the extent of the cloud: "
+        << "more voxels than 32 bits can number";
+  throw std::invalid_argument(error.str());
+}
+
+/** \brief One point a voxel, the centroid of those in it. */
+inline PointsXYZ::Ptr
+downsample(const PointsXYZ::ConstPtr& points, double resolution)
+{
+  PointsXYZ::Ptr keypoints(new PointsXYZ);
+  pcl::VoxelGrid<pcl::PointXYZ> grid;
+  const auto leaf = static_cast<float>(resolution);
+  grid.setLeafSize(leaf, leaf, leaf);
+  grid.setInputCloud(points);
+  grid.filter(*keypoints);
+  return keypoints;
+}
+
+inline Normals::Ptr
+estimateNormals(const PointsXYZ::ConstPtr& points, double radius, unsigned num_threads)
+{
+  Normals::Ptr normals(new Normals);
+  pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation(num_threads);
+  estimation.setSearchMethod(
+      pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
+  estimation.setRadiusSearch(radius);
+  estimation.setInputCloud(points);
+  const auto& origin = points->sensor_origin_;
+  estimation.setViewPoint(origin.x(), origin.y(), origin.z());
+  estimation.compute(*normals);
+  return normals;
+}
+
+inline Fpfh33::Ptr
+estimateFpfh(const PointsXYZ::ConstPtr& points,
+             const Normals::ConstPtr& normals,
+             double radius,
+             unsigned num_threads)
+{
+  Fpfh33::Ptr features(new Fpfh33);
+  pcl::FPFHEstimationOMP<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> estimation(
+      num_threads);
+  estimation.setSearchMethod(
+      pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
+  estimation.setRadiusSearch(radius);
+  estimation.setInputCloud(points);
+  estimation.setInputNormals(normals);
+  estimation.compute(*features);
+  return features;
+}
+
+/** \brief Keeps the points, and what belongs to them, for which the test is true. */
+template <typename CompanionT, typename Test>
+void
+keepIf(PointsXYZ& points, pcl::PointCloud<CompanionT>& companions, Test test)
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (test(companions[i])) {
+      points[kept] = points[i];
+      companions[kept++] = companions[i];
+    }
+  points.resize(kept);
+  companions.resize(kept);
+}
+
+inline bool
+isFiniteFpfh(const pcl::FPFHSignature33& feature)
+{
+  return std::all_of(std::begin(feature.histogram),
+                     std::end(feature.histogram),
+                     [](float value) { return std::isfinite(value); });
+}
+
+} // namespace detail
+
+template <typename PointT>
+FpfhCloud
+computeFpfh(const pcl::PointCloud<PointT>& cloud,
+            const pcl::Indices& indices,
+            double resolution,
+            unsigned num_threads,
+            FpfhTimings* timings)
+{
+  using namespace detail;
+  FpfhTimings spent;
+  FpfhCloud result;
+  result.features.reset(new Fpfh33);
+
+  const Stopwatch voxel_grid;
+  result.points = finitePoints(cloud, indices);
+  if (!result.points->empty()) {
+    checkVoxelGrid(*result.points, resolution);
+    result.points = downsample(result.points, resolution);
+    spent.voxel_grid = voxel_grid.milliseconds();
+
+    const Stopwatch normal_estimation;
+    const auto normals = estimateNormals(result.points, 2 * resolution, num_threads);
+    keepIf(*result.points, *normals, [](const pcl::Normal& normal) {
+      return pcl::isNormalFinite(normal);
+    });
+    spent.normals = normal_estimation.milliseconds();
+
+    const Stopwatch description;
+    if (!result.points->empty())
+      result.features =
+          estimateFpfh(result.points, normals, 5 * resolution, num_threads);
+    keepIf(*result.points, *result.features, isFiniteFpfh);
+    spent.features = description.milliseconds();
+  }
+  if (timings)
+    *timings = spent;
+  return result;
+}
+
+template <typename PointT>
+double
+estimateResolution(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
+{
+  const detail::VoxelCount voxels(*detail::finitePoints(cloud, indices));
+  const double quarter = 0.25 * static_cast<double>(voxels.distinctPoints());
+  return detail::roundToPreferredNumber(
+      voxels.sizeFor(std::max(2.0, std::min(2500.0, quarter))));
+}
+
+template <typename PointT>
+double
+estimateVoxelSize(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
+{
+  // Centroids of pcl::VoxelGrid on surfaces occupy this share of the voxels of a grid
+  // of the same size that is shifted against it.
+  constexpr double occupied_share = 0.65;
+  const detail::VoxelCount voxels(*detail::finitePoints(cloud, indices));
+  const auto points = static_cast<double>(voxels.distinctPoints());
+  return voxels.sizeFor(std::max(2.0, occupied_share * points));
+}
+
+} // namespace pcl_flashreg

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+// Descriptors, given and computed, as the source of correspondences.
+
+#include <set>
+
+#include "flash_registration_fixture.h"
+
+using namespace pcl_flashreg;
+using namespace pcl_flashreg::made;
+using PointT = pcl::PointXYZ;
+using Fpfh = pcl::PointCloud<pcl::FPFHSignature33>;
+
+namespace {
+
+/** \brief Descriptors of the room, and a program's own copies of them. */
+class GivenFeatures : public testing::Test {
+protected:
+  GivenFeatures()
+  {
+    static const FpfhCloud source_fpfh =
+        computeFpfh(*room().source, {}, room_resolution);
+    static const FpfhCloud target_fpfh =
+        computeFpfh(*room().target, {}, room_resolution);
+    source.reset(new Cloud(*source_fpfh.points));
+    target.reset(new Cloud(*target_fpfh.points));
+    source_features.reset(new Fpfh(*source_fpfh.features));
+    target_features.reset(new Fpfh(*target_fpfh.features));
+    registration.setInputSource(source);
+    registration.setInputTarget(target);
+    registration.setSourceFeatures(source_features);
+    registration.setTargetFeatures(target_features);
+  }
+
+  void
+  expectFound()
+  {
+    EXPECT_TRUE(registration.hasConverged()) << registration.getErrorMessage();
+    expectPose(registration.getFinalTransformation(), room().T_target_source);
+  }
+
+  void
+  expectRefused(const std::string& word)
+  {
+    const Silence silence;
+    registration.align(output);
+    EXPECT_FALSE(registration.hasConverged());
+    EXPECT_TRUE(registration.getFinalTransformation().isIdentity(0));
+    EXPECT_NE(registration.getErrorMessage().find(word), std::string::npos)
+        << registration.getErrorMessage();
+    EXPECT_EQ(output.size(), source->size());
+  }
+
+  Cloud::Ptr source, target;
+  Fpfh::Ptr source_features, target_features;
+  Registration registration;
+  Cloud output;
+};
+
+} // namespace
+
+TEST_F(GivenFeatures, AreMatched)
+{
+  registration.setResolution(room_resolution);
+  registration.align(output);
+  expectFound();
+  EXPECT_EQ(registration.getCorrespondences().size(), source->size());
+  EXPECT_FALSE(registration.getSourceFpfh().points);
+  for (const auto& inlier : registration.getInlierCorrespondences()) {
+    const Eigen::Vector3d moved =
+        registration.getResult().T_target_source.toIsometry() *
+        (*source)[inlier.index_query].getVector3fMap().cast<double>();
+    const auto there = (*target)[inlier.index_match].getVector3fMap().cast<double>();
+    EXPECT_LT((moved - there).norm(), 2 * room_resolution + 1e-5);
+  }
+}
+
+TEST_F(GivenFeatures, TakeTheResolutionFromTheSpacing)
+{
+  registration.align(output);
+  expectFound();
+  EXPECT_NEAR(registration.getResolution(), room_resolution, 0.03);
+}
+
+TEST_F(GivenFeatures, MustBeOneAPointOnBothSides)
+{
+  source_features->resize(source_features->size() - 1);
+  expectRefused("source features for");
+  source_features->push_back(source_features->back());
+  target_features->resize(target_features->size() - 1);
+  expectRefused("target features for");
+  registration.clearFeatures();
+  registration.setSourceFeatures(source_features);
+  expectRefused("no target features");
+  {
+    const Silence silence;
+    registration.setSourceFeatures(Fpfh::ConstPtr());
+    registration.setSourceFeatures(Fpfh::Ptr(new Fpfh));
+    registration.setTargetFeatures(Fpfh::ConstPtr());
+  }
+  EXPECT_EQ(registration.getSourceFeatures(), source_features);
+  EXPECT_FALSE(registration.getTargetFeatures());
+}
+
+TEST_F(GivenFeatures, AreSkippedWhereTheyOrTheirPointsAreNotFinite)
+{
+  std::set<pcl::index_t> bad_source, bad_target;
+  for (int i = 0; i < 100; ++i) {
+    spoil(*source, 10 * i);
+    spoil(*target, 10 * i + 1);
+    (*source_features)[10 * i + 2].histogram[i % 33] =
+        std::numeric_limits<float>::quiet_NaN();
+    (*target_features)[10 * i + 3].histogram[i % 33] =
+        std::numeric_limits<float>::infinity();
+    bad_source.insert({10 * i, 10 * i + 2});
+    bad_target.insert({10 * i + 1, 10 * i + 3});
+  }
+  registration.setResolution(room_resolution);
+  registration.align(output);
+  expectFound();
+  EXPECT_EQ(registration.getCorrespondences().size(),
+            source->size() - bad_source.size());
+  for (const auto& correspondence : registration.getCorrespondences()) {
+    EXPECT_EQ(bad_source.count(correspondence.index_query), 0u);
+    EXPECT_EQ(bad_target.count(correspondence.index_match), 0u);
+  }
+}
+
+TEST_F(GivenFeatures, AreThoseOfTheSelectedPoints)
+{
+  const pcl::IndicesPtr indices(new pcl::Indices);
+  for (std::size_t i = 1; i < source->size(); i += 2)
+    indices->push_back(static_cast<pcl::index_t>(i));
+  registration.setIndices(indices);
+  registration.setResolution(room_resolution);
+  registration.align(output);
+  expectFound();
+  EXPECT_EQ(output.size(), indices->size());
+  ASSERT_EQ(registration.getCorrespondences().size(), indices->size());
+  for (std::size_t i = 0; i < indices->size(); ++i)
+    EXPECT_EQ(registration.getCorrespondences()[i].index_query, (*indices)[i]);
+}
+
+TEST_F(GivenFeatures, CanBeMatchedWithSeveral)
+{
+  registration.setResolution(room_resolution);
+  registration.setCorrespondenceRandomness(3);
+  registration.align(output);
+  expectFound();
+  EXPECT_EQ(registration.getCorrespondences().size(), 3 * source->size());
+  EXPECT_LE(registration.getCorrespondences()[0].distance,
+            registration.getCorrespondences()[1].distance);
+}
+
+TEST_F(GivenFeatures, GiveWayToComputedOnes)
+{
+  registration.clearFeatures();
+  registration.setInputSource(room().source);
+  registration.setInputTarget(room().target);
+  registration.setResolution(room_resolution);
+  registration.align(output);
+  expectFound();
+  EXPECT_EQ(registration.getSourceFpfh().points->size(), source->size());
+}
+
+TEST_F(GivenFeatures, MayBeOfAnyTypeThatIsAnArrayOfFloats)
+{
+  using Histogram = pcl::Histogram<33>;
+  FlashRegistration<PointT, PointT, Histogram> other;
+  pcl::PointCloud<Histogram>::Ptr a(new pcl::PointCloud<Histogram>);
+  pcl::PointCloud<Histogram>::Ptr b(new pcl::PointCloud<Histogram>);
+  const auto copy = [](const Fpfh& from, pcl::PointCloud<Histogram>& to) {
+    to.resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i)
+      std::copy_n(from[i].histogram, 33, to[i].histogram);
+  };
+  copy(*source_features, *a);
+  copy(*target_features, *b);
+  other.setInputSource(source);
+  other.setInputTarget(target);
+  other.setSourceFeatures(a);
+  other.setTargetFeatures(b);
+  other.align(output);
+  registration.align(output);
+  EXPECT_TRUE(other.hasConverged());
+  EXPECT_TRUE(other.getFinalTransformation() == registration.getFinalTransformation());
+
+  // A representation of the caller's: nothing but the first of the three histograms.
+  using FirstOnly = pcl::CustomPointRepresentation<Histogram>;
+  other.setFeatureRepresentation(FirstOnly::Ptr(new FirstOnly(11)));
+  const float all = other.getCorrespondences()[0].distance;
+  other.align(output);
+  EXPECT_LT(other.getCorrespondences()[0].distance, all);
+}
+
+TEST(ComputedFeatures, OfATargetThatStaysAreComputedOnce)
+{
+  const RoomPairXYZ other(400, 7);
+  Registration registration;
+  Cloud output;
+  registration.setResolution(room_resolution);
+  registration.setInputTarget(room().target);
+  registration.setInputSource(room().source);
+  registration.align(output);
+  const auto target_points = registration.getTargetFpfh().points;
+  const auto source_points = registration.getSourceFpfh().points;
+  EXPECT_GT(registration.getTimings().target_features.features, 0);
+
+  registration.align(output);
+  EXPECT_EQ(registration.getSourceFpfh().points, source_points);
+  EXPECT_EQ(registration.getTimings().source_features.features, 0);
+
+  registration.setInputSource(other.source);
+  registration.align(output);
+  EXPECT_TRUE(registration.hasConverged());
+  expectPose(registration.getFinalTransformation(), other.T_target_source);
+  EXPECT_EQ(registration.getTargetFpfh().points, target_points);
+  EXPECT_EQ(registration.getTimings().target_features.features, 0);
+  EXPECT_GT(registration.getTimings().source_features.features, 0);
+
+  registration.setInputTarget(room().target);
+  registration.align(output);
+  EXPECT_NE(registration.getTargetFpfh().points, target_points);
+
+  registration.setResolution(0.12);
+  registration.align(output);
+  EXPECT_LT(registration.getTargetFpfh().points->size(), target_points->size());
+}
