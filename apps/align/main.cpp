@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "../io/cloud_io.h"
+#include "../io/file.h"
+#include "../io/pcl_cloud.h"
+#include "../io/transform_io.h"
+#include "inputs.h"
+#include "options.h"
+#include "pipeline.h"
+#include "progress.h"
+#include "report.h"
+#include "snapshot.h"
+#include "viewer.h"
+
+#include <pcl/console/print.h>
+
+#include <iostream>
+#include <new>
+
+namespace pcl_flashreg::align {
+namespace {
+
+enum ExitStatus { kTrusted = 0, kNotTrusted = 1, kUsage = 2, kFailure = 3 };
+
+/** \brief The source in the target's frame, with all its fields. */
+io::Cloud
+alignedCloud(const Inputs& inputs, const RigidTransform& pose, const Progress& progress)
+{
+  io::Cloud cloud = inputs.source->cloud;
+  const bool is_double = cloud.find("x")->type == io::ScalarType::Float64;
+  const Eigen::Matrix3Xd& xyz = inputs.source->xyz;
+  const Eigen::Matrix3Xd moved = (pose.rotation * xyz).colwise() + pose.translation;
+  if (!is_double && io::needsDoublePrecision(moved) && !io::needsDoublePrecision(xyz)) {
+    progress.note(
+        "the aligned cloud lies too far from the origin for float32: its x, y, "
+        "z are written as doubles");
+    io::promoteCoordinates(cloud);
+  }
+  io::transformCloud(cloud, pose);
+  if (inputs.target)
+    cloud.viewpoint = inputs.target->cloud.viewpoint;
+  return cloud;
+}
+
+void
+writeOutputs(const Options& options,
+             const Inputs& inputs,
+             const Outcome& outcome,
+             const Progress& progress)
+{
+  const RigidTransform& pose = outcome.result.T_target_source;
+  if (!options.json.empty()) {
+    const std::string json = formatJson(options, outcome);
+    if (options.json == "-")
+      std::cout << json << std::flush;
+    else
+      io::writeFile(options.json, json);
+  }
+  const bool found = outcome.result.status == Status::Ok;
+  if (outcome.result.converged || (found && options.write_untrusted)) {
+    if (!options.transform.empty())
+      io::writeFile(options.transform, io::formatTransform(pose));
+    if (!options.output.empty())
+      io::writeCloud(options.output, alignedCloud(inputs, pose, progress));
+  }
+  else {
+    for (const std::string& path : {options.output, options.transform})
+      if (!path.empty())
+        progress.note(path + " is not written, since no pose is trusted" +
+                      (found ? " (--write-untrusted does)" : ""));
+  }
+  if (!options.snapshot.empty())
+    writeSnapshot(options.snapshot, inputs.source->xyz, inputs.target->xyz, pose);
+  if (options.view)
+    showClouds(inputs.source->xyz, inputs.target->xyz, pose);
+}
+
+ExitStatus
+run(const Options& options)
+{
+  const Progress progress(options.quiet);
+  const Inputs inputs = readInputs(options, progress);
+  const Outcome outcome = alignInputs(options, inputs, progress);
+  if (!options.quiet && options.json != "-")
+    std::cout << formatReport(options, outcome) << std::flush;
+  writeOutputs(options, inputs, outcome, progress);
+  return outcome.result.converged ? kTrusted : kNotTrusted;
+}
+
+ExitStatus
+fail(ExitStatus status, const std::string& message)
+{
+  std::cerr << "pcl_flashreg_align: error: " << message << std::endl;
+  return status;
+}
+
+ExitStatus
+parseAndRun(int argc, char** argv)
+{
+  try {
+    const std::optional<Options> options = parseOptions(argc, argv);
+    return options ? run(*options) : kTrusted;
+  }
+  catch (const UsageError& error) {
+    return fail(kUsage, error.what());
+  }
+  catch (const std::bad_alloc&) {
+    return fail(kFailure, "not enough memory");
+  }
+  catch (const std::exception& error) {
+    return fail(kFailure, error.what());
+  }
+}
+
+} // namespace
+} // namespace pcl_flashreg::align
+
+int
+main(int argc, char** argv)
+{
+  // PCL's own messages would stand between the user and ours.
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  return pcl_flashreg::align::parseAndRun(argc, argv);
+}

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "option_groups.h"
+
+#include <sstream>
+
+namespace pcl_flashreg::align {
+
+const std::map<std::string, SecondOrder> kSecondOrders = {
+    {"auto", SecondOrder::Auto},
+    {"exact", SecondOrder::Exact},
+    {"bounded", SecondOrder::Bounded}};
+const std::map<std::string, ScoreMetric> kScores = {{"inliers", ScoreMetric::Inliers},
+                                                    {"mae", ScoreMetric::Mae},
+                                                    {"mse", ScoreMetric::Mse}};
+const std::map<std::string, BackendKind> kBackends = {{"auto", BackendKind::Auto},
+                                                      {"cpu", BackendKind::Cpu},
+                                                      {"cuda", BackendKind::Cuda}};
+
+namespace {
+
+/** \brief Breaks a help text into lines that fit beside the names of the options. */
+std::string
+wrapped(const std::string& text)
+{
+  constexpr std::size_t width = 58;
+  std::string result;
+  std::size_t line = 0;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (line > 0 && line + 1 + word.size() > width) {
+      result += '\n';
+      line = 0;
+    }
+    else if (line > 0) {
+      result += ' ';
+      ++line;
+    }
+    result += word;
+    line += word.size();
+  }
+  return result;
+}
+
+template <typename Value>
+std::vector<std::string>
+keysOf(const std::map<std::string, Value>& map)
+{
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : map)
+    keys.push_back(key);
+  return keys;
+}
+
+void
+addInputs(CLI::App& app, Options& options, Words& words)
+{
+  app.add_option(
+      "source", options.source, wrapped("Cloud to be moved (.pcd, .ply, .bin)"));
+  app.add_option("target", options.target, wrapped("Cloud that stays where it is"));
+  app.add_option(
+      "output", options.output, wrapped("Where the moved source goes (.pcd, .ply)"));
+  app.add_option(
+         "--correspondences",
+         words.correspondences,
+         wrapped("Skip features and matching: rows of 'sx sy sz tx ty tz', rows of "
+                 "'source_index target_index', or two files SRC,TGT with rows of 'x y "
+                 "z'. With coordinates the clouds may be left out"))
+      ->type_name("FILE[,FILE]")
+      ->group("Input");
+  app.add_option(
+         "--features",
+         words.features,
+         wrapped("FPFH descriptors, two .pcd files with one descriptor a point of the "
+                 "clouds, which are then taken as the keypoints"))
+      ->type_name("SRC,TGT")
+      ->group("Input");
+  app.add_option(
+         "--guess",
+         options.guess,
+         wrapped("4 x 4 matrix, a pose that is tried like any other hypothesis"))
+      ->type_name("FILE")
+      ->group("Input");
+}
+
+void
+addOutputs(CLI::App& app, Options& options)
+{
+  const std::string group = "Output";
+  app.add_option(
+         "--json", options.json, wrapped("Everything as JSON; - for standard output"))
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option(
+         "--transform", options.transform, wrapped("The pose, a 4 x 4 matrix as text"))
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option("--snapshot",
+                 options.snapshot,
+                 wrapped("Picture of both clouds before and after; needs no display"))
+      ->type_name("FILE.png")
+      ->group(group);
+  app.add_flag("--view", options.view, wrapped("Show both clouds in PCL's viewer"))
+      ->group(group);
+  app.add_flag(
+         "--write-untrusted",
+         options.write_untrusted,
+         wrapped(
+             "Write the aligned cloud and --transform even if the pose is not trusted"))
+      ->group(group);
+  app.add_flag(
+         "--quiet", options.quiet, wrapped("Nothing but errors, and JSON if asked for"))
+      ->group(group);
+}
+
+void
+addPipeline(CLI::App& app, Options& options, Words& words)
+{
+  const std::string group = "How";
+  app.add_option(
+         "--leaf",
+         options.leaf,
+         wrapped("Resolution: the voxel size, from which all lengths follow (default: "
+                 "estimated from the clouds, or from the correspondences)"))
+      ->type_name("LENGTH")
+      ->group(group);
+  app.add_option(
+         "--neighbors", options.neighbors, wrapped("Matches for each descriptor"))
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000).description(""))
+      ->group(group);
+  app.add_flag(
+         "--mutual", options.mutual, wrapped("Keep matches that hold both ways only"))
+      ->group(group);
+  app.add_option("--backend", words.backend, wrapped("auto, cpu or cuda"))
+      ->capture_default_str()
+      ->check(CLI::IsMember(keysOf(kBackends)).description(""))
+      ->group(group);
+  app.add_option("--threads", options.threads, wrapped("CPU threads; 0 for all"))
+      ->capture_default_str()
+      ->group(group);
+}
+
+void
+addLengths(CLI::App& app, Options& options)
+{
+  const std::string group = "Lengths (in the unit of the clouds)";
+  app.add_option(
+         "--length-tolerance",
+         options.length_tolerance,
+         wrapped("Two correspondences agree if their distances in source and target "
+                 "differ by less (default: 0.24 x leaf)"))
+      ->type_name("LENGTH")
+      ->group(group);
+  app.add_option(
+         "--min-length-sum",
+         options.min_length_sum,
+         wrapped("Pairs of correspondences whose two distances sum to no more are "
+                 "ignored (default: 3 x leaf)"))
+      ->type_name("LENGTH")
+      ->group(group);
+  app.add_option("--inlier-distance",
+                 options.inlier_distance,
+                 wrapped("Largest residual of an inlier (default: 2 x leaf)"))
+      ->type_name("LENGTH")
+      ->group(group);
+}
+
+void
+addMethod(CLI::App& app, Parameters& parameters, Words& words)
+{
+  const auto add =
+      [&app](const std::string& name, auto& value, const std::string& text) {
+        return app.add_option(name, value, wrapped(text))
+            ->capture_default_str()
+            ->group("Method");
+      };
+  add("--max-correspondences",
+      parameters.max_correspondences,
+      "Correspondences used at most; the best-ranked are kept");
+  add("--pivots", parameters.pivots, "Best edges that cliques are grown from");
+  add("--cliques-per-pivot",
+      parameters.cliques_per_pivot,
+      "3-cliques kept for each pivot");
+  add("--row-capacity",
+      parameters.row_capacity,
+      "Bounded second order: voters and entries of a row");
+  add("--pool-capacity",
+      parameters.pool_capacity,
+      "Bounded second order: pivot candidates of a row");
+  add("--second-order", words.second_order, "auto, exact or bounded")
+      ->check(CLI::IsMember(keysOf(kSecondOrders)).description(""));
+  add("--score", words.score, "Rank poses by: inliers, mae or mse")
+      ->check(CLI::IsMember(keysOf(kScores)).description(""));
+  add("--refinement-iterations",
+      parameters.refinement_iterations,
+      "Rounds of reweighted alignment at most");
+  add("--max-hypotheses",
+      parameters.max_hypotheses,
+      "Distinct poses listed in the JSON");
+  add("--min-inliers",
+      parameters.min_inliers,
+      "Inliers that a trusted pose has at least");
+  add("--min-distinctness",
+      parameters.min_distinctness,
+      "Times the inliers of the best rival that a trusted pose has at least");
+}
+
+} // namespace
+
+void
+addOptions(CLI::App& app, Options& options, Words& words)
+{
+  addInputs(app, options, words);
+  addOutputs(app, options);
+  addPipeline(app, options, words);
+  addLengths(app, options);
+  addMethod(app, options.parameters, words);
+}
+
+} // namespace pcl_flashreg::align

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "options.h"
+
+#include "../io/cloud_io.h"
+#include "option_groups.h"
+#include "snapshot.h"
+#include "viewer.h"
+
+#include <pcl_flashreg/estimator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace pcl_flashreg::align {
+namespace {
+
+constexpr const char* kDescription = "Finds the rigid transform that maps the source "
+                                     "cloud onto the target cloud, with no\n"
+                                     "initial guess, and says whether to trust it.\n";
+
+constexpr const char* kFooter = R"(
+Examples:
+  pcl_flashreg_align scan1.pcd scan2.pcd
+      prints the pose of scan1 in the frame of scan2, and the verdict
+  pcl_flashreg_align scan1.ply scan2.ply aligned.ply --leaf 0.05 --snapshot pair.png
+      5 cm voxels; writes the aligned cloud, and a picture of the pair before and after
+  pcl_flashreg_align 000010.bin 000000.bin --leaf 0.3 --quiet --json -
+      two KITTI scans; only JSON on standard output
+  pcl_flashreg_align --correspondences pairs.txt --leaf 0.3 --transform pose.txt
+      from correspondences alone, of clouds thinned to 30 cm
+  pcl_flashreg_align src.pcd tgt.pcd out.pcd --correspondences src.txt,tgt.txt
+      from correspondences; the clouds are there for the aligned output
+
+Clouds: .pcd, .ply (vertices), KITTI .bin (float32 x y z intensity). The aligned cloud
+keeps all fields of the source, and has the VIEWPOINT of the target, whose frame it is in.
+
+Exit status: 0 a pose was found and is trusted; 1 no trusted pose; 2 wrong usage;
+3 an input file or the machine is at fault.)";
+
+std::vector<std::string>
+splitPair(const std::string& text, const std::string& option)
+{
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos || comma == 0 || comma + 1 == text.size() ||
+      text.find(',', comma + 1) != std::string::npos)
+    throw UsageError(option + ": expected two files, SRC,TGT, found '" + text + "'");
+  return {text.substr(0, comma), text.substr(comma + 1)};
+}
+
+void
+takeWords(const Words& words, Options& options)
+{
+  options.parameters.second_order = kSecondOrders.at(words.second_order);
+  options.parameters.score_metric = kScores.at(words.score);
+  options.backend = kBackends.at(words.backend);
+  if (!words.features.empty())
+    options.features = splitPair(words.features, "--features");
+  if (words.correspondences.empty())
+    return;
+  // A comma may belong to the name of one file.
+  if (words.correspondences.find(',') == std::string::npos ||
+      std::filesystem::exists(words.correspondences))
+    options.correspondences = {words.correspondences};
+  else
+    options.correspondences = splitPair(words.correspondences, "--correspondences");
+}
+
+/** \brief The core names its parameters as in "min_inliers = 1 is ..."; so do we, but
+ * as the option that sets them. */
+std::string
+asOption(std::string message)
+{
+  const auto name_end =
+      message.begin() +
+      static_cast<std::ptrdiff_t>(std::min(message.find(' '), message.size()));
+  std::replace(message.begin(), name_end, '_', '-');
+  return "--" + message;
+}
+
+/** \brief What CLI11 can't know. */
+void
+check(const Options& options)
+{
+  const bool from_correspondences = !options.correspondences.empty();
+  if (!from_correspondences && options.target.empty())
+    throw UsageError("a source and a target cloud are needed (--help tells more)");
+  if (!options.output.empty() && !io::isWritableCloudPath(options.output))
+    throw UsageError(options.output + ": clouds are written as .pcd or .ply");
+  if (from_correspondences && !options.features.empty())
+    throw UsageError("--correspondences and --features exclude each other");
+  if (options.leaf && !(*options.leaf > 0 && std::isfinite(*options.leaf)))
+    throw UsageError("--leaf: the voxel size must be a length > 0");
+  if ((!options.snapshot.empty() || options.view) && options.target.empty())
+    throw UsageError("--snapshot and --view need the source and the target cloud");
+  if (!options.snapshot.empty() && !kSnapshotBuiltIn)
+    throw UsageError("--snapshot is not built into this program (no libpng was found "
+                     "when it was built)");
+  if (options.view && !kViewerBuiltIn)
+    throw UsageError("--view is not built into this program (no PCL visualization was "
+                     "found when it was built)");
+  try {
+    options.parametersFor(options.leaf).validate();
+  }
+  catch (const std::invalid_argument& error) {
+    throw UsageError(asOption(error.what()));
+  }
+  if (options.view)
+    requireDisplay();
+}
+
+} // namespace
+
+Parameters
+Options::parametersFor(const std::optional<double>& resolution) const
+{
+  const Parameters lengths =
+      resolution ? Parameters::fromResolution(*resolution) : Parameters();
+  Parameters result = parameters;
+  result.length_tolerance = length_tolerance.value_or(lengths.length_tolerance);
+  result.min_length_sum = min_length_sum.value_or(lengths.min_length_sum);
+  result.inlier_distance = inlier_distance.value_or(lengths.inlier_distance);
+  return result;
+}
+
+std::optional<Options>
+parseOptions(int argc, char** argv)
+{
+  Options options;
+  Words words;
+  CLI::App app(kDescription, "pcl_flashreg_align");
+  app.set_version_flag("--version", std::string("pcl_flashreg_align ") + version());
+  app.footer(kFooter);
+  addOptions(app, options, words);
+  try {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::Success& request) {
+    app.exit(request);
+    return std::nullopt;
+  }
+  catch (const CLI::ParseError& error) {
+    throw UsageError(error.what() + std::string(" (--help lists the options)"));
+  }
+  takeWords(words, options);
+  check(options);
+  checkOutputPaths(options);
+  return options;
+}
+
+} // namespace pcl_flashreg::align

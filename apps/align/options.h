@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/parameters.h>
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace pcl_flashreg::align {
+
+/** \brief The command line asks for something that can't be. */
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief The command line of pcl_flashreg_align; an empty path is one not given. */
+struct Options {
+  std::string source;
+  std::string target;
+  std::string output;
+
+  /** \brief One file (of six columns, or of index pairs), two files (of three), or
+   * none. */
+  std::vector<std::string> correspondences;
+  /** \brief Two files of descriptors, or none. */
+  std::vector<std::string> features;
+  std::string guess;
+
+  std::string json;
+  std::string transform;
+  std::string snapshot;
+  bool view = false;
+  bool quiet = false;
+  bool write_untrusted = false;
+
+  std::optional<double> leaf;
+  std::optional<float> length_tolerance;
+  std::optional<float> min_length_sum;
+  std::optional<float> inlier_distance;
+  /** \brief Everything but the lengths, which parametersFor() adds. */
+  Parameters parameters;
+
+  std::size_t neighbors = 1;
+  bool mutual = false;
+  BackendKind backend = BackendKind::Auto;
+  unsigned threads = 0;
+
+  /** \brief The estimator's parameters: lengths from the resolution (the indoor preset,
+   * if there is none), and over them those that were given on their own. */
+  Parameters
+  parametersFor(const std::optional<double>& resolution) const;
+};
+
+/** \brief Parses the command line and checks what can be checked without reading a
+ * file's contents.
+ * \return nothing if help or the version was asked for, and printed
+ * \throws UsageError with one line that says what is wrong
+ */
+std::optional<Options>
+parseOptions(int argc, char** argv);
+
+/** \brief Paths to write to must be no input and differ from each other, clouds must
+ * have an extension that can be written, and folders must be there.
+ * \throws UsageError if that is not so
+ */
+void
+checkOutputPaths(const Options& options);
+
+} // namespace pcl_flashreg::align

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "pipeline.h"
+
+#include "../io/error.h"
+#include "../io/pcl_cloud.h"
+#include "matching.h"
+
+#include <pcl_flashreg/estimator.h>
+
+#include <chrono>
+#include <sstream>
+
+namespace pcl_flashreg::align {
+namespace {
+
+using io::InputError;
+
+class Stopwatch {
+public:
+  double
+  milliseconds() const
+  {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+std::string
+shortNumber(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/** \brief A cloud ready for PCL. */
+struct Side {
+  const InputCloud& input;
+  io::ShiftedCloud shifted;
+
+  explicit Side(const InputCloud& cloud)
+      : input(cloud), shifted(io::toPclCloud(cloud.xyz))
+  {
+  }
+};
+
+template <typename Estimate>
+double
+largerEstimate(const Side& source, const Side& target, Estimate estimate)
+{
+  double larger = 0;
+  for (const Side* side : {&source, &target}) {
+    try {
+      larger = std::max(larger, estimate(*side->shifted.points));
+    }
+    catch (const std::invalid_argument& error) {
+      throw InputError(side->input.path + ": " + error.what());
+    }
+  }
+  return larger;
+}
+
+double
+resolutionOfClouds(const Side& source, const Side& target)
+{
+  return largerEstimate(
+      source, target, [](const auto& points) { return estimateResolution(points); });
+}
+
+double
+resolutionOfKeypoints(const Side& source, const Side& target)
+{
+  return largerEstimate(
+      source, target, [](const auto& points) { return estimateVoxelSize(points); });
+}
+
+/** \brief Complains about a leaf that was given, and says which would suit. */
+[[noreturn]] void
+failLeaf(const Side& side, double leaf, const std::string& problem)
+{
+  const double better = estimateResolution(*side.shifted.points);
+  throw UsageError("--leaf " + shortNumber(leaf) + ": " + problem + "; about " +
+                   shortNumber(better) + " would suit " + side.input.path);
+}
+
+struct Keypoints {
+  Eigen::Matrix3Xd xyz;
+  FpfhCloud described;
+};
+
+Keypoints
+describe(const Side& side, const Options& options, Outcome& outcome)
+{
+  Keypoints keypoints;
+  FpfhTimings timings;
+  try {
+    keypoints.described = computeFpfh(
+        *side.shifted.points, {}, *outcome.resolution, options.threads, &timings);
+  }
+  catch (const std::invalid_argument& error) {
+    if (options.leaf)
+      failLeaf(side, *options.leaf, error.what());
+    throw InputError(side.input.path + ": " + error.what());
+  }
+  const auto& points = *keypoints.described.points;
+  const auto needed = static_cast<std::size_t>(options.parameters.min_inliers);
+  if (points.size() < needed) {
+    const std::string problem = "leaves only " + std::to_string(points.size()) +
+                                " points that can be described, while a trusted pose "
+                                "takes " +
+                                std::to_string(needed);
+    if (options.leaf)
+      failLeaf(side, *options.leaf, problem);
+    throw InputError(side.input.path + ": the voxel grid of " +
+                     shortNumber(*outcome.resolution) + " " + problem +
+                     " (--leaf sets another, --min-inliers the number)");
+  }
+  keypoints.xyz.resize(3, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    keypoints.xyz.col(static_cast<Eigen::Index>(i)) =
+        points[i].getVector3fMap().cast<double>() + side.shifted.shift;
+  outcome.features_ms.voxel_grid += timings.voxel_grid;
+  outcome.features_ms.normals += timings.normals;
+  outcome.features_ms.features += timings.features;
+  return keypoints;
+}
+
+FeatureView
+viewOf(const pcl::PointCloud<pcl::FPFHSignature33>& features)
+{
+  constexpr std::size_t dimension = 33;
+  static_assert(sizeof(pcl::FPFHSignature33) == dimension * sizeof(float));
+  return {features[0].histogram, features.size(), dimension, dimension};
+}
+
+FeatureView
+viewOf(const InputFeatures& features)
+{
+  return {features.values.data(),
+          features.values.size() / features.dimension,
+          features.dimension,
+          features.dimension};
+}
+
+RankedCorrespondences
+matchClouds(const Options& options,
+            const Inputs& inputs,
+            const Progress& progress,
+            Outcome& outcome)
+{
+  const Side source(*inputs.source);
+  const Side target(*inputs.target);
+  const auto match = [&](const auto&... points_and_features) {
+    progress.say("matching");
+    const Stopwatch matching;
+    auto matches = matchPoints(
+        points_and_features..., options.neighbors, options.mutual, options.threads);
+    outcome.matching_ms = matching.milliseconds();
+    return matches;
+  };
+  if (inputs.source_features) {
+    outcome.resolution =
+        options.leaf ? *options.leaf : resolutionOfKeypoints(source, target);
+    return match(source.input.xyz,
+                 viewOf(*inputs.source_features),
+                 target.input.xyz,
+                 viewOf(*inputs.target_features));
+  }
+  outcome.resolution =
+      options.leaf ? *options.leaf : resolutionOfClouds(source, target);
+  progress.say("describing the source, voxels of " + shortNumber(*outcome.resolution));
+  const Keypoints from = describe(source, options, outcome);
+  progress.say("describing the target");
+  const Keypoints to = describe(target, options, outcome);
+  return match(from.xyz,
+               viewOf(*from.described.features),
+               to.xyz,
+               viewOf(*to.described.features));
+}
+
+/** \brief For given correspondences: --leaf, or the voxel size of their own points, of
+ * the side with more distinct ones. Nothing if they are too few to tell. */
+std::optional<double>
+resolutionFor(const Options& options, const io::Correspondences& given)
+{
+  if (options.leaf)
+    return options.leaf;
+  try {
+    return std::min(estimateVoxelSize(*io::toPclCloud(given.source).points),
+                    estimateVoxelSize(*io::toPclCloud(given.target).points));
+  }
+  catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+} // namespace
+
+Outcome
+alignInputs(const Options& options, const Inputs& inputs, const Progress& progress)
+{
+  Estimator estimator(options.backend, options.threads);
+  Outcome outcome;
+  if (inputs.correspondences)
+    outcome.resolution = resolutionFor(options, *inputs.correspondences);
+  const Stopwatch total;
+  RankedCorrespondences matched;
+  if (!inputs.correspondences)
+    matched = matchClouds(options, inputs, progress, outcome);
+  const io::Correspondences& given =
+      inputs.correspondences ? *inputs.correspondences : matched.points;
+  outcome.correspondences = given.size();
+  outcome.parameters = options.parametersFor(outcome.resolution);
+  progress.say("estimating the pose from " + std::to_string(given.size()) +
+               " correspondences");
+  const CorrespondenceView<double> view{given.source.data(),
+                                        given.target.data(),
+                                        given.size(),
+                                        matched.ranks.empty() ? nullptr
+                                                              : matched.ranks.data()};
+  outcome.result = estimator.estimate(view, outcome.parameters, inputs.guess);
+  outcome.total_ms = total.milliseconds();
+  return outcome;
+}
+
+} // namespace pcl_flashreg::align

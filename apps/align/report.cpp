@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "report.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+namespace pcl_flashreg::align {
+namespace {
+
+/** \brief A stream whose numbers do not depend on the user's language. */
+std::ostringstream
+plainStream(int decimals)
+{
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  stream << std::fixed << std::setprecision(decimals);
+  return stream;
+}
+
+std::string
+rounded(double value, int decimals)
+{
+  auto stream = plainStream(decimals);
+  stream << value;
+  return stream.str();
+}
+
+std::string
+formatPose(const RigidTransform& pose)
+{
+  const Eigen::Matrix4d matrix = pose.toMatrix<double>();
+  auto stream = plainStream(12);
+  for (int row = 0; row < 4; ++row) {
+    stream << ' ';
+    for (int column = 0; column < 4; ++column)
+      stream << ' ' << std::setw(column < 3 ? 15 : 20) << matrix(row, column);
+    stream << '\n';
+  }
+  return stream.str();
+}
+
+std::string
+formatCounts(const Outcome& outcome)
+{
+  const Result& result = outcome.result;
+  std::string text = std::to_string(result.inliers.size()) + " of " +
+                     std::to_string(outcome.correspondences) + " correspondences";
+  if (result.correspondences_dropped > 0)
+    text += ", of which " + std::to_string(result.correspondences_dropped) +
+            " were left out (--max-correspondences)";
+  if (result.correspondences_invalid > 0)
+    text += ", " + std::to_string(result.correspondences_invalid) +
+            " were not finite numbers";
+  return text;
+}
+
+std::string
+formatTimes(const Outcome& outcome)
+{
+  std::string text = rounded(outcome.total_ms, 1) + " ms";
+  const FpfhTimings& features = outcome.features_ms;
+  if (outcome.matching_ms > 0)
+    text += ": voxel grid " + rounded(features.voxel_grid, 1) + ", normals " +
+            rounded(features.normals, 1) + ", features " +
+            rounded(features.features, 1) + ", matching " +
+            rounded(outcome.matching_ms, 1) + ", pose " +
+            rounded(outcome.result.timings_ms.total, 1);
+  return text + " (" + outcome.result.backend + ")";
+}
+
+} // namespace
+
+std::string
+formatVerdict(const Outcome& outcome)
+{
+  const Result& result = outcome.result;
+  if (result.status != Status::Ok)
+    return std::string("no pose found: ") + toString(result.status);
+  std::string rival = ", no other pose comes near";
+  if (std::isfinite(result.distinctness))
+    rival =
+        ", " + rounded(result.distinctness, 2) + " times those of the next best pose";
+  const std::string evidence =
+      std::to_string(result.inliers.size()) + " correspondences agree" + rival;
+  if (result.converged)
+    return "pose found and trusted: " + evidence;
+  return "pose found, but NOT trusted: " + evidence +
+         " (needed: " + std::to_string(outcome.parameters.min_inliers) + ", and " +
+         rounded(outcome.parameters.min_distinctness, 2) + " times)";
+}
+
+std::string
+formatReport(const Options& options, const Outcome& outcome)
+{
+  std::string text = formatVerdict(outcome) + '\n';
+  if (outcome.result.status == Status::Ok)
+    text +=
+        "transform, source to target:\n" + formatPose(outcome.result.T_target_source);
+  text += "inliers     " + formatCounts(outcome) + '\n';
+  if (outcome.resolution) {
+    std::ostringstream resolution;
+    resolution << *outcome.resolution;
+    text +=
+        "resolution  " + resolution.str() + (options.leaf ? "\n" : " (estimated)\n");
+  }
+  return text + "time        " + formatTimes(outcome) + '\n';
+}
+
+} // namespace pcl_flashreg::align

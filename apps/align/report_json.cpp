@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "report.h"
+
+#include <pcl_flashreg/estimator.h>
+
+#include <nlohmann/json.hpp>
+
+namespace pcl_flashreg::align {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Matrix>
+Json
+rowsOf(const Matrix& matrix)
+{
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      row.push_back(matrix(i, j));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+const char*
+nameOf(Status status)
+{
+  switch (status) {
+  case Status::Ok:
+    return "ok";
+  case Status::TooFewCorrespondences:
+    return "too_few_correspondences";
+  case Status::NoClique:
+    return "no_clique";
+  default:
+    return "degenerate";
+  }
+}
+
+Json
+timingsOf(const Outcome& outcome)
+{
+  const StageTimings& stages = outcome.result.timings_ms;
+  return {{"voxel_grid", outcome.features_ms.voxel_grid},
+          {"normals", outcome.features_ms.normals},
+          {"features", outcome.features_ms.features},
+          {"matching", outcome.matching_ms},
+          {"preparation", stages.preparation},
+          {"first_order_graph", stages.first_order_graph},
+          {"second_order_graph", stages.second_order_graph},
+          {"pivots", stages.pivots},
+          {"cliques", stages.cliques},
+          {"hypotheses", stages.hypotheses},
+          {"verification", stages.verification},
+          {"refinement", stages.refinement},
+          {"estimation", stages.total},
+          {"total", outcome.total_ms}};
+}
+
+Json
+hypothesesOf(const Result& result)
+{
+  Json list = Json::array();
+  for (const Hypothesis& hypothesis : result.hypotheses)
+    list.push_back(
+        {{"transformation", rowsOf(hypothesis.T_target_source.toMatrix<double>())},
+         {"inliers", hypothesis.inlier_count},
+         {"score", hypothesis.score}});
+  return list;
+}
+
+Json
+parametersOf(const Parameters& parameters)
+{
+  return {{"length_tolerance", parameters.length_tolerance},
+          {"min_length_sum", parameters.min_length_sum},
+          {"inlier_distance", parameters.inlier_distance},
+          {"max_correspondences", parameters.max_correspondences},
+          {"min_inliers", parameters.min_inliers},
+          {"min_distinctness", parameters.min_distinctness}};
+}
+
+} // namespace
+
+std::string
+formatJson(const Options& options, const Outcome& outcome)
+{
+  const Result& result = outcome.result;
+  Json json;
+  json["version"] = version();
+  json["source"] = options.source;
+  json["target"] = options.target;
+  json["converged"] = result.converged;
+  json["status"] = nameOf(result.status);
+  json["transformation"] = rowsOf(result.T_target_source.toMatrix<double>());
+  json["inliers"] = result.inliers.size();
+  json["correspondences"] = outcome.correspondences;
+  json["correspondences_dropped"] = result.correspondences_dropped;
+  json["correspondences_invalid"] = result.correspondences_invalid;
+  json["score"] = result.score;
+  json["distinctness"] = result.distinctness;
+  json["resolution"] = outcome.resolution ? Json(*outcome.resolution) : Json();
+  json["parameters"] = parametersOf(outcome.parameters);
+  json["backend"] = result.backend;
+  json["second_order"] =
+      result.second_order == SecondOrder::Exact ? "exact" : "bounded";
+  json["hypotheses"] = hypothesesOf(result);
+  json["information"] = rowsOf(result.information);
+  json["timings_ms"] = timingsOf(outcome);
+  // A path need not be valid UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+} // namespace pcl_flashreg::align

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "cloud_io.h"
+
+#include "error.h"
+#include "file.h"
+#include "pcd.h"
+#include "ply.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace pcl_flashreg::io {
+namespace {
+
+constexpr const char* kPositionNames[] = {"x", "y", "z"};
+constexpr const char* kNormalNames[] = {"normal_x", "normal_y", "normal_z"};
+
+Cloud
+parseCloud(const std::string& extension, const std::string& bytes)
+{
+  if (extension == ".pcd")
+    return parsePcd(bytes);
+  if (extension == ".ply")
+    return parsePly(bytes);
+  if (extension == ".bin")
+    return parseKittiBin(bytes);
+  if (bytes.compare(0, 3, "ply") == 0)
+    return parsePly(bytes);
+  if (bytes.compare(0, 6, "# .PCD") == 0 || bytes.compare(0, 7, "VERSION") == 0)
+    return parsePcd(bytes);
+  throw InputError(
+      "is not a point cloud that can be read: expected .pcd, .ply or KITTI "
+      ".bin");
+}
+
+/** \brief Changes the type of the position fields for which choose() says another one.
+ */
+template <typename Choose>
+void
+changePositionTypes(Cloud& cloud, Choose&& choose)
+{
+  std::vector<Field> fields = cloud.fields;
+  bool changed = false;
+  for (Field& field : fields)
+    for (const char* name : kPositionNames)
+      if (field.name == name && choose(field.type) != field.type) {
+        field.type = choose(field.type);
+        changed = true;
+      }
+  if (changed)
+    cloud = withFields(cloud, fields);
+}
+
+/** \brief Replaces the three fields, as a vector, of every point; nothing if one of
+ * them is missing. */
+template <typename Function>
+void
+mapVectors(Cloud& cloud, const char* const (&names)[3], Function&& function)
+{
+  const Field* const fields[] = {
+      cloud.find(names[0]), cloud.find(names[1]), cloud.find(names[2])};
+  if (!fields[0] || !fields[1] || !fields[2])
+    return;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::uint8_t* point = cloud.point(i);
+    Eigen::Vector3d v;
+    for (int axis = 0; axis < 3; ++axis)
+      v[axis] = loadValue(point, *fields[axis]);
+    v = function(v);
+    for (int axis = 0; axis < 3; ++axis)
+      storeValue(point, *fields[axis], v[axis]);
+  }
+}
+
+} // namespace
+
+Cloud
+readCloud(const std::string& path)
+{
+  Cloud cloud = parseFile(path, [&](const std::string& bytes) {
+    return parseCloud(extensionOf(path), bytes);
+  });
+  if (cloud.size() == 0)
+    throw InputError(path + ": holds no points");
+  return cloud;
+}
+
+bool
+isWritableCloudPath(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".pcd" || extension == ".ply";
+}
+
+void
+writeCloud(const std::string& path, const Cloud& cloud)
+{
+  std::string bytes;
+  try {
+    bytes = extensionOf(path) == ".ply" ? formatPly(cloud) : formatPcd(cloud);
+  }
+  catch (const InputError& error) {
+    throw InputError(path + ": cannot be written: " + error.what());
+  }
+  writeFile(path, bytes);
+}
+
+Cloud
+parseKittiBin(std::string_view bytes)
+{
+  Cloud cloud;
+  for (const char* name : {"x", "y", "z", "intensity"})
+    cloud.addField(name, ScalarType::Float32);
+  if (bytes.size() % cloud.point_size != 0)
+    throw InputError(
+        "is not a KITTI scan, or cut off: its size is no multiple of 16 bytes "
+        "(float32 x y z intensity)");
+  cloud.width = bytes.size() / cloud.point_size;
+  cloud.data.assign(bytes.begin(), bytes.end());
+  // The format has no header. No laser sees further than this, while arbitrary bytes
+  // make numbers of any size.
+  constexpr double farthest = 1e5;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::abs(loadValue(cloud.point(i), cloud.fields[k])) > farthest)
+        throw InputError("is not a KITTI scan: point " + std::to_string(i) +
+                         " lies more than 100 km away");
+  return cloud;
+}
+
+void
+transformCloud(Cloud& cloud, const RigidTransform& T_new_old)
+{
+  changePositionTypes(cloud, [](ScalarType type) {
+    if (isFloat(type))
+      return type;
+    return sizeOf(type) <= 2 ? ScalarType::Float32 : ScalarType::Float64;
+  });
+  mapVectors(cloud, kPositionNames, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return T_new_old.rotation * p + T_new_old.translation;
+  });
+  mapVectors(cloud, kNormalNames, [&](const Eigen::Vector3d& n) -> Eigen::Vector3d {
+    return T_new_old.rotation * n;
+  });
+}
+
+void
+promoteCoordinates(Cloud& cloud)
+{
+  changePositionTypes(cloud, [](ScalarType) { return ScalarType::Float64; });
+}
+
+} // namespace pcl_flashreg::io

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "transform_io.h"
+
+#include "error.h"
+#include "number_table.h"
+
+#include <Eigen/Geometry>
+
+#include <limits>
+#include <locale>
+#include <sstream>
+
+namespace pcl_flashreg::io {
+
+RigidTransform
+parseTransform(std::string_view text)
+{
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+  const NumberTable table = parseNumberTable(text);
+  const auto n = static_cast<Eigen::Index>(table.values.size());
+  if ((n != 16 && n != 12) || (table.columns != 4 && table.rows() != 1))
+    throw InputError("holds " + std::to_string(n) +
+                     " numbers, expected a 4 x 4 matrix by rows");
+  const Rows matrix = Eigen::Map<const Rows>(table.values.data(), n / 4, 4);
+  // Matrices that people print with few digits are let pass, others are not.
+  constexpr double tolerance = 1e-2;
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  const Eigen::RowVector4d last_row(0, 0, 0, 1);
+  if (!matrix.allFinite() || rotation.determinant() < 0 ||
+      !(rotation.transpose() * rotation).isIdentity(tolerance) ||
+      (n == 16 && !matrix.bottomRows<1>().isApprox(last_row, tolerance)))
+    throw InputError("is no rigid transform: a rotation with determinant +1, a "
+                     "translation, and 0 0 0 1 in the last row are expected");
+  RigidTransform result;
+  result.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  result.translation = matrix.topRightCorner<3, 1>();
+  return result;
+}
+
+std::string
+formatTransform(const RigidTransform& transform)
+{
+  const Eigen::Matrix4d matrix = transform.toMatrix<double>();
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(std::numeric_limits<double>::max_digits10);
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      text << matrix(row, column) << (column < 3 ? ' ' : '\n');
+  return text.str();
+}
+
+} // namespace pcl_flashreg::io

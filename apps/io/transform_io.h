@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/result.h>
+
+#include <string>
+#include <string_view>
+
+namespace pcl_flashreg::io {
+
+/** \brief Reads a rigid transform.
+ *
+ * A 4 x 4 or 3 x 4 matrix by rows, on one line or several. The rotation is made exactly
+ * orthonormal.
+ * \throws InputError if the numbers are no rigid transform
+ */
+RigidTransform
+parseTransform(std::string_view text);
+
+/** \brief The 4 x 4 matrix, a row a line, with all 17 digits of a double. */
+std::string
+formatTransform(const RigidTransform& transform);
+
+} // namespace pcl_flashreg::io

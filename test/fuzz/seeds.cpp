@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "targets.h"
+
+#include "cloud_io_support.h"
+#include "io/pcd.h"
+#include "io/ply.h"
+#include "support/made_correspondences.h"
+
+namespace pcl_flashreg::fuzz {
+namespace {
+
+std::vector<std::string>
+pcdSeeds()
+{
+  const std::string fields = "VERSION 0.7\nFIELDS x y z _ label\nSIZE 4 4 8 1 2\n"
+                             "TYPE F F F U I\nCOUNT 1 1 1 3 2\nWIDTH 3\nHEIGHT 1\n"
+                             "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 3\nDATA ";
+  std::string binary = fields + "binary\n";
+  binary.append(3 * 23, '\x3f');
+  std::string ascii = fields + "ascii\n";
+  for (int i = 0; i < 3; ++i)
+    ascii += "1.5 -2e-3 nan 0 0 0 7 -8\n";
+  return {ascii, binary, io::formatPcd(io::richCloud(40))};
+}
+
+std::vector<std::string>
+plySeeds()
+{
+  const std::string elements =
+      " 1.0\ncomment made\nelement camera 1\nproperty list uchar short k\n"
+      "element vertex 2\nproperty float x\nproperty double y\nproperty uchar z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property list uchar int w\nproperty float nx\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const std::string row(12, '\x40');
+  const std::string colors_list_and_normal(
+      "\x01\x02\x03\x04\x01\x00\x00\x00\x07\x00\x00\x80\x3f", 13);
+  const std::string body = std::string("\x01\x05\x06", 3) + row +
+                           colors_list_and_normal + row + colors_list_and_normal;
+  const std::string text =
+      "2 5 6\n1 2.5 3 4 5 6 1 7 0.5\n1 2.5 3 4 5 6 0 0.5\n3 0 1 0\n";
+  return {"ply\nformat ascii" + elements + text,
+          "ply\nformat binary_little_endian" + elements + body,
+          "ply\nformat binary_big_endian" + elements + body,
+          io::formatPly(io::richCloud(20))};
+}
+
+std::string
+bytesOf(const std::vector<float>& values)
+{
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
+}
+
+std::string
+kittiSeed()
+{
+  made::Random random(2);
+  std::vector<float> values;
+  for (int i = 0; i < 400; ++i)
+    values.push_back(static_cast<float>(random.uniform(-80, 80)));
+  return bytesOf(values);
+}
+
+/** \brief Correspondences under a shift, all right ones, or all in one place. */
+std::vector<std::string>
+estimatorSeeds()
+{
+  made::Random random(3);
+  std::vector<float> shifted(6 * 60), same(6 * 60, 1.0f), random_pairs(6 * 60);
+  for (std::size_t i = 0; i < 180; ++i) {
+    shifted[i] = static_cast<float>(random.uniform(0, 3));
+    shifted[180 + i] = shifted[i] + 1;
+  }
+  for (float& value : random_pairs)
+    value = static_cast<float>(random.uniform(-2, 2));
+  return {bytesOf(shifted), bytesOf(same), bytesOf(random_pairs), ""};
+}
+
+} // namespace
+
+std::vector<NamedTarget>
+allTargets()
+{
+  return {
+      {"pcd", readPcd, pcdSeeds()},
+      {"ply", readPly, plySeeds()},
+      {"kitti_bin", readKittiBin, {kittiSeed()}},
+      {"correspondences",
+       readCorrespondences,
+       {"# c\n1 2 3 4 5 6\n1e3 -2 +3 nan 5 6\n", "0 1\n99 5\n", "1,2,3\n4 5 6 # x\n"}},
+      {"transform",
+       readTransform,
+       {"1 0 0 0.5\n0 1 0 -2\n0 0 1 3e2\n0 0 0 1\n", "0 -1 0 1 1 0 0 2 0 0 1 3"}},
+      {"estimate", estimate, estimatorSeeds()}};
+}
+
+} // namespace pcl_flashreg::fuzz

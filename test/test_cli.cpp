@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "cli_support.h"
+
+#include <pcl_flashreg/estimator.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace pcl_flashreg::cli {
+namespace {
+
+using io::ScalarType;
+
+TEST_F(CliTest, findsThePoseAndSaysSo)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const CliRun run = align("source.pcd target.pcd");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_NE(run.out.find("pose found and trusted"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find(" correspondences"), std::string::npos);
+  EXPECT_NE(run.out.find(" ms"), std::string::npos);
+}
+
+TEST_F(CliTest, jsonHasItsKeys)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const CliRun run = align("source.pcd target.pcd --json - --leaf 0.1");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = run.json();
+  expectTruth(poseOf(json));
+  EXPECT_EQ(json.at("converged"), true);
+  EXPECT_EQ(json.at("status"), "ok");
+  EXPECT_GE(json.at("inliers").get<int>(), 12);
+  EXPECT_GE(json.at("correspondences"), json.at("inliers"));
+  EXPECT_EQ(json.at("correspondences_dropped"), 0);
+  EXPECT_EQ(json.at("score"), json.at("inliers").get<double>());
+  EXPECT_EQ(json.at("backend").get<std::string>().substr(0, 4), "cpu-");
+  EXPECT_EQ(json.at("source"), "source.pcd");
+  EXPECT_EQ(json.at("target"), "target.pcd");
+  EXPECT_EQ(json.at("version"), version());
+  EXPECT_EQ(json.at("resolution"), 0.1);
+  EXPECT_FALSE(json.at("hypotheses").empty());
+  EXPECT_EQ(json.at("information").size(), 6u);
+  const auto& timings = json.at("timings_ms");
+  double sum = 0;
+  for (const char* stage : {"voxel_grid", "normals", "features", "matching"}) {
+    EXPECT_GT(timings.at(stage).get<double>(), 0) << stage;
+    sum += timings.at(stage).get<double>();
+  }
+  for (const char* stage : {"preparation",
+                            "first_order_graph",
+                            "second_order_graph",
+                            "pivots",
+                            "cliques",
+                            "hypotheses",
+                            "verification",
+                            "refinement"}) {
+    EXPECT_GE(timings.at(stage).get<double>(), 0) << stage;
+    sum += timings.at(stage).get<double>();
+  }
+  EXPECT_GE(timings.at("total").get<double>(), sum);
+}
+
+TEST_F(CliTest, writesEverythingItIsAskedFor)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const CliRun run = align("source.pcd target.pcd aligned.ply --json out.json "
+                           "--transform pose.txt --quiet");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, "");
+  const RigidTransform pose = io::parseFile(path("pose.txt"), io::parseTransform);
+  expectTruth(pose);
+  const auto json = nlohmann::json::parse(slurp(path("out.json")));
+  EXPECT_EQ(poseOf(json).translation, pose.translation);
+  const Eigen::Matrix3Xd aligned = io::coordinates(io::readCloud(path("aligned.ply")));
+  const Eigen::Matrix3Xd expected =
+      (pose.rotation * sourcePoints()).colwise() + pose.translation;
+  EXPECT_LT((aligned - expected).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST_F(CliTest, keepsAllFields)
+{
+  const std::vector<io::Field> more = {{"normal_x", ScalarType::Float32, 1, 0},
+                                       {"normal_y", ScalarType::Float32, 1, 0},
+                                       {"normal_z", ScalarType::Float32, 1, 0},
+                                       {"intensity", ScalarType::Float32, 1, 0},
+                                       {"rgb", ScalarType::Float32, 1, 0},
+                                       {"ring", ScalarType::Uint16, 1, 0},
+                                       {"stamp", ScalarType::Uint64, 1, 0},
+                                       {"histogram", ScalarType::Float32, 4, 0}};
+  const io::Cloud source = cloudOf(sourcePoints(), ScalarType::Float64, more);
+  io::Cloud target = cloudOf(roomPoints(kPoints, 2));
+  target.viewpoint = {1, 2, 3, 1, 0, 0, 0};
+  io::writeCloud(path("source.pcd"), source);
+  io::writeCloud(path("target.pcd"), target);
+  const CliRun run = align("source.pcd target.pcd aligned.pcd --transform pose.txt");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const io::Cloud aligned = io::readCloud(path("aligned.pcd"));
+  ASSERT_EQ(aligned.fields.size(), source.fields.size());
+  EXPECT_EQ(aligned.viewpoint, target.viewpoint);
+  const RigidTransform pose = io::parseFile(path("pose.txt"), io::parseTransform);
+  for (std::size_t f = 0; f < source.fields.size(); ++f) {
+    const io::Field& field = aligned.fields[f];
+    EXPECT_EQ(field.name, source.fields[f].name);
+    EXPECT_EQ(field.type, source.fields[f].type);
+    EXPECT_EQ(field.count, source.fields[f].count);
+    if (f < 6)
+      continue;
+    for (std::size_t i = 0; i < source.size(); ++i)
+      ASSERT_EQ(std::memcmp(aligned.point(i) + field.offset,
+                            source.point(i) + field.offset,
+                            field.byteSize()),
+                0)
+          << field.name << " of point " << i;
+  }
+  const auto normalOf = [](const io::Cloud& cloud) {
+    Eigen::Vector3d normal;
+    for (std::size_t k = 0; k < 3; ++k)
+      normal[static_cast<Eigen::Index>(k)] =
+          io::loadValue(cloud.point(5), cloud.fields[3 + k]);
+    return normal;
+  };
+  EXPECT_LT((normalOf(aligned) - pose.rotation * normalOf(source)).norm(), 1e-4);
+}
+
+TEST_F(CliTest, geoReferencedDoublesKeepTheirPrecision)
+{
+  const Eigen::Vector3d utm(500000, 4000000, 300);
+  const Eigen::Matrix3Xd room = roomPoints(kPoints, 2);
+  io::writeCloud(path("source.ply"), cloudOf(sourcePoints(), ScalarType::Float64));
+  io::writeCloud(path("target.ply"), cloudOf(room, ScalarType::Float64));
+  io::writeCloud(path("source_utm.ply"),
+                 cloudOf(sourcePoints().colwise() + utm, ScalarType::Float64));
+  io::writeCloud(path("target_utm.ply"),
+                 cloudOf(room.colwise() + utm, ScalarType::Float64));
+  const CliRun near = align("source.ply target.ply --leaf 0.1 --json -");
+  const CliRun far = align("source_utm.ply target_utm.ply far.ply --leaf 0.1 --json -");
+  ASSERT_EQ(near.status, 0) << near.err;
+  ASSERT_EQ(far.status, 0) << far.err;
+  expectTruth(poseOf(near.json()));
+  RigidTransform pose = poseOf(far.json());
+  pose.translation += pose.rotation * utm - utm;
+  expectTruth(pose);
+  const io::Cloud aligned = io::readCloud(path("far.ply"));
+  EXPECT_EQ(aligned.find("x")->type, ScalarType::Float64);
+  const Eigen::Matrix3Xd back = io::coordinates(aligned).colwise() - utm;
+  const Eigen::Matrix3Xd expected =
+      (pose.rotation * sourcePoints()).colwise() + pose.translation;
+  EXPECT_LT((back - expected).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST_F(CliTest, floatsThatMoveFarAwayBecomeDoubles)
+{
+  const Eigen::Vector3d utm(500000, 4000000, 300);
+  io::writeCloud(path("source.pcd"), cloudOf(sourcePoints()));
+  io::writeCloud(path("target.ply"),
+                 cloudOf(roomPoints(kPoints, 2).colwise() + utm, ScalarType::Float64));
+  const CliRun run = align("source.pcd target.ply far.pcd --leaf 0.1");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.err.find("written as doubles"), std::string::npos);
+  EXPECT_EQ(io::readCloud(path("far.pcd")).find("x")->type, ScalarType::Float64);
+}
+
+TEST_F(CliTest, readsKittiScans)
+{
+  for (const bool is_source : {true, false}) {
+    const Eigen::Matrix3Xd xyz = is_source ? sourcePoints() : roomPoints(kPoints, 2);
+    const io::Cloud cloud =
+        cloudOf(xyz, ScalarType::Float32, {{"intensity", ScalarType::Float32, 1, 0}});
+    write(is_source ? "s.bin" : "t.bin", {cloud.data.begin(), cloud.data.end()});
+  }
+  const CliRun run = align("s.bin t.bin aligned.pcd --json -");
+  ASSERT_EQ(run.status, 0) << run.err;
+  expectTruth(poseOf(run.json()));
+  const io::Cloud aligned = io::readCloud(path("aligned.pcd"));
+  ASSERT_NE(aligned.find("intensity"), nullptr);
+  EXPECT_EQ(io::loadValue(aligned.point(100), *aligned.find("intensity")),
+            (100 * 7 + 3) % 251);
+}
+
+TEST_F(CliTest, pointsThatAreNotFiniteAreSkippedAndKept)
+{
+  Eigen::Matrix3Xd xyz = sourcePoints();
+  for (Eigen::Index i = 0; i < xyz.cols(); i += 10)
+    xyz(i % 3, i) = std::nan("");
+  io::writeCloud(path("source.pcd"), cloudOf(xyz));
+  io::writeCloud(path("target.pcd"), cloudOf(roomPoints(kPoints, 2)));
+  const CliRun run = align("source.pcd target.pcd aligned.pcd --json -");
+  ASSERT_EQ(run.status, 0) << run.err;
+  expectTruth(poseOf(run.json()));
+  EXPECT_EQ(io::readCloud(path("aligned.pcd")).size(), kPoints);
+}
+
+TEST_F(CliTest, sameResultWithEveryNumberOfThreads)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const auto resultOf = [&](const std::string& threads) {
+    auto json = align("source.pcd target.pcd --json - --threads " + threads).json();
+    json.erase("timings_ms");
+    return json.dump();
+  };
+  const std::string one = resultOf("1");
+  EXPECT_EQ(resultOf("2"), one);
+  EXPECT_EQ(resultOf("0"), one);
+}
+
+TEST_F(CliTest, mutualMatchesAndSeveralNeighbors)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const auto count = [&](const std::string& options) {
+    const CliRun run = align("source.pcd target.pcd --leaf 0.1 --json - " + options);
+    EXPECT_EQ(run.status, 0) << options << run.err;
+    expectTruth(poseOf(run.json()));
+    return run.json().at("correspondences").get<int>();
+  };
+  const int one_way = count("");
+  EXPECT_EQ(count("--neighbors 2"), 2 * one_way);
+  EXPECT_LT(count("--mutual"), one_way);
+}
+
+TEST_F(CliTest, optionsReachTheEstimator)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const std::string common = "source.pcd target.pcd --leaf 0.1 --json - ";
+  const auto json = align(common + "--length-tolerance 0.02 --max-correspondences 100 "
+                                   "--second-order bounded --score mse --min-inliers 5 "
+                                   "--max-hypotheses 2 --backend cpu")
+                        .json();
+  EXPECT_NEAR(json.at("parameters").at("length_tolerance").get<double>(), 0.02, 1e-8);
+  EXPECT_NEAR(json.at("parameters").at("inlier_distance").get<double>(), 0.2, 1e-8);
+  EXPECT_EQ(json.at("correspondences_dropped").get<int>(),
+            json.at("correspondences").get<int>() - 100);
+  EXPECT_EQ(json.at("second_order"), "bounded");
+  EXPECT_LT(json.at("score").get<double>(), json.at("inliers").get<double>());
+  EXPECT_LE(json.at("hypotheses").size(), 2u);
+  const CliRun strict = align(common + "--min-inliers 100000");
+  EXPECT_NE(strict.status, 0);
+}
+
+TEST_F(CliTest, anUntrustedPoseIsNotWritten)
+{
+  made::Random random(5);
+  Eigen::Matrix3Xd a(3, 3000), b(3, 3000);
+  for (Eigen::Index i = 0; i < a.cols(); ++i) {
+    a.col(i) = random.inCube(2);
+    b.col(i) = random.inCube(2);
+  }
+  io::writeCloud(path("a.pcd"), cloudOf(a));
+  io::writeCloud(path("b.pcd"), cloudOf(b));
+  const std::string command =
+      "a.pcd b.pcd c.pcd --leaf 0.1 --transform t.txt --json j ";
+  const CliRun run = align(command);
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_NE(run.out.find("NOT trusted"), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("not written"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(path("c.pcd")));
+  EXPECT_FALSE(fs::exists(path("t.txt")));
+  EXPECT_EQ(nlohmann::json::parse(slurp(path("j"))).at("converged"), false);
+  EXPECT_EQ(align(command + "--write-untrusted").status, 1);
+  EXPECT_TRUE(fs::exists(path("c.pcd")));
+  EXPECT_TRUE(fs::exists(path("t.txt")));
+}
+
+TEST_F(CliTest, snapshotIsAPng)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const CliRun run = align("source.pcd target.pcd --quiet --snapshot pair.png");
+  if (run.status == 2 && run.err.find("not built") != std::string::npos)
+    GTEST_SKIP() << run.err;
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string bytes = slurp(path("pair.png"));
+  ASSERT_GT(bytes.size(), 10000u);
+  EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
+}
+
+TEST_F(CliTest, helpAndVersion)
+{
+  const CliRun help = align("--help");
+  EXPECT_EQ(help.status, 0);
+  for (const char* word :
+       {"Examples:", "--correspondences", "--min-distinctness", "Exit"})
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  const CliRun printed = align("--version");
+  EXPECT_EQ(printed.status, 0);
+  EXPECT_EQ(printed.out, std::string("pcl_flashreg_align ") + version() + "\n");
+}
+
+} // namespace
+} // namespace pcl_flashreg::cli
