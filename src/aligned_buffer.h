@@ -19,11 +19,15 @@ public:
   AlignedBuffer&
   operator=(const AlignedBuffer&) = delete;
   AlignedBuffer(AlignedBuffer&& other) noexcept
-  : data_(std::exchange(other.data_, nullptr))
-  , size_(std::exchange(other.size_, 0))
-  , capacity_(std::exchange(other.capacity_, 0))
-  {}
-  ~AlignedBuffer() { release(); }
+      : data_(std::exchange(other.data_, nullptr)),
+        size_(std::exchange(other.size_, 0)),
+        capacity_(std::exchange(other.capacity_, 0))
+  {
+  }
+  ~AlignedBuffer()
+  {
+    release();
+  }
 
   void
   resize(std::size_t n)

@@ -30,7 +30,9 @@ struct Estimator::Impl {
   RigidTransform
   toOriginal(const Pose& T) const;
   void
-  fill(Result& result, const PoseEstimate& estimate, const Parameters& parameters) const;
+  fill(Result& result,
+       const PoseEstimate& estimate,
+       const Parameters& parameters) const;
 };
 
 namespace {
@@ -92,9 +94,9 @@ Estimator::Impl::toCentred(const RigidTransform& T) const
 {
   Pose centred;
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(centred.r) = T.rotation;
-  Eigen::Map<Eigen::Vector3d>(centred.t) = T.rotation * toEigen(preparation.source_centre) +
-                                           T.translation -
-                                           toEigen(preparation.target_centre);
+  Eigen::Map<Eigen::Vector3d>(centred.t) =
+      T.rotation * toEigen(preparation.source_centre) + T.translation -
+      toEigen(preparation.target_centre);
   return centred;
 }
 
@@ -128,8 +130,9 @@ Estimator::Impl::fill(Result& result,
   for (const int i : estimate.inliers)
     result.inliers.push_back(preparation.rows[i]);
   result.distinctness = distinctnessOf(estimate.hypotheses);
-  result.converged = static_cast<int>(result.inliers.size()) >= parameters.min_inliers &&
-                     result.distinctness >= parameters.min_distinctness;
+  result.converged =
+      static_cast<int>(result.inliers.size()) >= parameters.min_inliers &&
+      result.distinctness >= parameters.min_distinctness;
   result.information = informationMatrix(problem,
                                          estimate.hypotheses.front().pose,
                                          estimate.inliers,
@@ -169,7 +172,7 @@ Estimator::Impl::estimate(const CorrespondenceView<Scalar>& correspondences,
 }
 
 Estimator::Estimator(BackendKind backend, unsigned num_threads)
-: impl_(std::make_unique<Impl>())
+    : impl_(std::make_unique<Impl>())
 {
   impl_->backend = makeBackend(backend, num_threads);
 }
@@ -235,7 +238,8 @@ toString(Status status)
   case Status::NoClique:
     return "no three correspondences preserve their mutual distances";
   case Status::Degenerate:
-    return "the consistent correspondences are collinear, coincident, or fewer than three "
+    return "the consistent correspondences are collinear, coincident, or fewer than "
+           "three "
            "agree with any pose";
   }
   return "unknown status";

@@ -78,12 +78,13 @@ check(const char* name, const FeatureView& view)
     throw std::invalid_argument(std::string(name) + ": size " +
                                 std::to_string(view.size) +
                                 " is out of range: it must fit 31 bits");
-  if (view.size > 0 && (!view.data || view.dimension == 0 || view.stride < view.dimension))
-    throw std::invalid_argument(std::string(name) +
-                                ": needs data, a dimension >= 1 and a stride >= it; got "
-                                "dimension " +
-                                std::to_string(view.dimension) + ", stride " +
-                                std::to_string(view.stride));
+  if (view.size > 0 &&
+      (!view.data || view.dimension == 0 || view.stride < view.dimension))
+    throw std::invalid_argument(
+        std::string(name) +
+        ": needs data, a dimension >= 1 and a stride >= it; got "
+        "dimension " +
+        std::to_string(view.dimension) + ", stride " + std::to_string(view.stride));
 }
 
 /** \brief The targets, transposed in blocks, with their norms. */
@@ -93,7 +94,7 @@ struct TargetBlocks {
   double largest_norm = 0;
 
   explicit TargetBlocks(const FeatureView& targets)
-  : count((targets.size + FEATURE_BLOCK - 1) / FEATURE_BLOCK)
+      : count((targets.size + FEATURE_BLOCK - 1) / FEATURE_BLOCK)
   {
     const std::size_t dimension = targets.dimension;
     values.resize(count * dimension * FEATURE_BLOCK);
@@ -122,13 +123,14 @@ public:
               const TargetBlocks& blocks,
               std::size_t k,
               const cpu::Kernels& kernels)
-  : queries_(queries)
-  , targets_(targets)
-  , blocks_(blocks)
-  , k_(k)
-  , kernels_(kernels)
-  , packed_(QUERY_BLOCK * queries.dimension)
-  {}
+      : queries_(queries),
+        targets_(targets),
+        blocks_(blocks),
+        k_(k),
+        kernels_(kernels),
+        packed_(QUERY_BLOCK * queries.dimension)
+  {
+  }
 
   /** \param[out] best the matches of query first + q in best[q], best first */
   void
@@ -169,12 +171,15 @@ private:
   }
 
   void
-  offer(std::size_t query, std::size_t target, std::size_t q, std::vector<Candidate>& best)
+  offer(std::size_t query,
+        std::size_t target,
+        std::size_t q,
+        std::vector<Candidate>& best)
   {
-    const Candidate candidate{
-        squaredDistance(
-            descriptor(queries_, query), descriptor(targets_, target), queries_.dimension),
-        static_cast<std::int32_t>(target)};
+    const Candidate candidate{squaredDistance(descriptor(queries_, query),
+                                              descriptor(targets_, target),
+                                              queries_.dimension),
+                              static_cast<std::int32_t>(target)};
     if (best.size() == k_) {
       if (!(candidate < best.back()))
         return;
@@ -231,22 +236,21 @@ matchFeatures(const FeatureView& queries,
   const std::size_t task_size = BLOCKS_A_TASK * QUERY_BLOCK;
   const std::size_t tasks = (queries.size + task_size - 1) / task_size;
   std::vector<std::vector<FeatureMatch>> found(tasks);
-  cpu::ThreadPool(num_threads).forEach(
-      tasks, [&](std::size_t task, std::size_t) {
-        BlockSearch search(queries, targets, blocks, k, kernels);
-        std::vector<Candidate> best[QUERY_BLOCK];
-        for (std::size_t b = 0; b < BLOCKS_A_TASK; ++b) {
-          const std::size_t first = task * task_size + b * QUERY_BLOCK;
-          if (first >= queries.size)
-            break;
-          search.run(first, best);
-          for (std::size_t q = 0; q < QUERY_BLOCK; ++q)
-            for (const Candidate& match : best[q])
-              found[task].push_back({static_cast<std::int32_t>(first + q),
-                                     match.target,
-                                     static_cast<float>(match.squared_distance)});
-        }
-      });
+  cpu::ThreadPool(num_threads).forEach(tasks, [&](std::size_t task, std::size_t) {
+    BlockSearch search(queries, targets, blocks, k, kernels);
+    std::vector<Candidate> best[QUERY_BLOCK];
+    for (std::size_t b = 0; b < BLOCKS_A_TASK; ++b) {
+      const std::size_t first = task * task_size + b * QUERY_BLOCK;
+      if (first >= queries.size)
+        break;
+      search.run(first, best);
+      for (std::size_t q = 0; q < QUERY_BLOCK; ++q)
+        for (const Candidate& match : best[q])
+          found[task].push_back({static_cast<std::int32_t>(first + q),
+                                 match.target,
+                                 static_cast<float>(match.squared_distance)});
+    }
+  });
 
   std::vector<FeatureMatch> matches;
   matches.reserve(queries.size * std::min(k, targets.size));

@@ -44,10 +44,9 @@ keepBestRanked(const float* ranks, std::size_t limit, std::vector<int>& rows)
       return std::isnan(ranks[row]) ? std::numeric_limits<float>::infinity()
                                     : ranks[row];
     };
-    std::nth_element(
-        rows.begin(), rows.begin() + limit, rows.end(), [&](int a, int b) {
-          return rank(a) != rank(b) ? rank(a) < rank(b) : a < b;
-        });
+    std::nth_element(rows.begin(), rows.begin() + limit, rows.end(), [&](int a, int b) {
+      return rank(a) != rank(b) ? rank(a) < rank(b) : a < b;
+    });
   }
   rows.resize(limit);
   std::sort(rows.begin(), rows.end());
@@ -111,9 +110,18 @@ prepare(const CorrespondenceView<Scalar>& in,
   out.source_centre = centroid(in.source_xyz, out.rows);
   out.target_centre = centroid(in.target_xyz, out.rows);
   problem.resize(out.rows.size());
-  problem.radius = std::max(
-      pack(in.source_xyz, out.rows, out.source_centre, problem.sx, problem.sy, problem.sz),
-      pack(in.target_xyz, out.rows, out.target_centre, problem.tx, problem.ty, problem.tz));
+  problem.radius = std::max(pack(in.source_xyz,
+                                 out.rows,
+                                 out.source_centre,
+                                 problem.sx,
+                                 problem.sy,
+                                 problem.sz),
+                            pack(in.target_xyz,
+                                 out.rows,
+                                 out.target_centre,
+                                 problem.tx,
+                                 problem.ty,
+                                 problem.tz));
 }
 
 template void

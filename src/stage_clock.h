@@ -13,8 +13,9 @@ namespace pcl_flashreg {
 class StageClock {
 public:
   explicit StageClock(StageTimings& timings_ms)
-  : timings_ms_(timings_ms), start_(Clock::now()), last_(start_)
-  {}
+      : timings_ms_(timings_ms), start_(Clock::now()), last_(start_)
+  {
+  }
 
   /** \brief Books the time since the last call under this stage. */
   void

@@ -33,7 +33,8 @@ struct Trace {
   bool
   hasEdge(std::size_t i, std::size_t j) const
   {
-    return (first_order_graph[i * words_per_row + j / WORD_BITS] >> (j % WORD_BITS)) & 1;
+    return (first_order_graph[i * words_per_row + j / WORD_BITS] >> (j % WORD_BITS)) &
+           1;
   }
 };
 

@@ -95,7 +95,8 @@ expectSound(const Result& result, const Parameters& p, std::size_t n)
   EXPECT_EQ(result.correspondences_used + result.correspondences_dropped +
                 result.correspondences_invalid,
             n);
-  EXPECT_LE(result.correspondences_used, static_cast<std::size_t>(p.max_correspondences));
+  EXPECT_LE(result.correspondences_used,
+            static_cast<std::size_t>(p.max_correspondences));
   ASSERT_TRUE(result.T_target_source.rotation.allFinite());
   ASSERT_TRUE(result.T_target_source.translation.allFinite());
   EXPECT_NEAR(result.T_target_source.rotation.determinant(), 1, 1e-6);

@@ -19,7 +19,8 @@ struct Features {
   std::vector<float> values;
   std::size_t dimension, stride;
 
-  FeatureView view() const
+  FeatureView
+  view() const
   {
     return {values.data(), values.size() / stride, dimension, stride};
   }
@@ -79,11 +80,13 @@ expectSame(const std::vector<FeatureMatch>& a, const std::vector<FeatureMatch>& 
 
 class Matching : public testing::TestWithParam<const char*> {
 protected:
-  void SetUp() override
+  void
+  SetUp() override
   {
     setenv("PCL_FLASHREG_CPU", GetParam(), 1);
   }
-  void TearDown() override
+  void
+  TearDown() override
   {
     unsetenv("PCL_FLASHREG_CPU");
   }

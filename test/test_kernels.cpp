@@ -18,7 +18,8 @@ namespace {
 
 class EveryVariant : public testing::TestWithParam<std::size_t> {
 protected:
-  const Kernels& kernels() const
+  const Kernels&
+  kernels() const
   {
     std::size_t count = 0;
     return *availableKernels(count)[GetParam()];

@@ -18,7 +18,8 @@ namespace {
 class StagesAgainstReference
     : public testing::TestWithParam<std::tuple<std::size_t, SecondOrder>> {
 protected:
-  void SetUp() override
+  void
+  SetUp() override
   {
     problem_ = made::problems()[std::get<0>(GetParam())];
     problem_.parameters.second_order = std::get<1>(GetParam());

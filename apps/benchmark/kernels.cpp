@@ -40,12 +40,23 @@ edgeTest(benchmark::State& state, const Kernels* kernels)
                        x[3 * side + 2][i] * x[3 * side + 2][i];
   }
   const float tau2 = 0.012f * 0.012f;
-  const cpu::EdgeTestInput input{x[0].data(),     x[1].data(),     x[2].data(),
-                                 x[3].data(),     x[4].data(),     x[5].data(),
-                                 norms[0].data(), norms[1].data(), 0.012f,
-                                 0.15f,           true,            -2 * tau2,
-                                 tau2 * tau2,     -1e-5f,          1e-5f,
-                                 0.0115f,         0.011f};
+  const cpu::EdgeTestInput input{x[0].data(),
+                                 x[1].data(),
+                                 x[2].data(),
+                                 x[3].data(),
+                                 x[4].data(),
+                                 x[5].data(),
+                                 norms[0].data(),
+                                 norms[1].data(),
+                                 0.012f,
+                                 0.15f,
+                                 true,
+                                 -2 * tau2,
+                                 tau2 * tau2,
+                                 -1e-5f,
+                                 1e-5f,
+                                 0.0115f,
+                                 0.011f};
   std::uint64_t sure[64], possible[64];
   std::size_t column = 0;
   for (auto _ : state) {
@@ -147,12 +158,12 @@ main(int argc, char** argv)
   using namespace pcl_flashreg;
   std::size_t count = 0;
   const cpu::Kernels* const* kernels = cpu::availableKernels(count);
-  const std::pair<const char*, void (*)(benchmark::State&, const cpu::Kernels*)> loops[] = {
-      {"edgeTest", edgeTest},
-      {"transpose", transpose},
-      {"commonNeighbours", commonNeighbours},
-      {"residualTest", residualTest},
-      {"featureCandidates", featureCandidates}};
+  const std::pair<const char*, void (*)(benchmark::State&, const cpu::Kernels*)>
+      loops[] = {{"edgeTest", edgeTest},
+                 {"transpose", transpose},
+                 {"commonNeighbours", commonNeighbours},
+                 {"residualTest", residualTest},
+                 {"featureCandidates", featureCandidates}};
   for (const auto& [name, loop] : loops)
     for (std::size_t i = 0; i < count; ++i)
       benchmark::RegisterBenchmark(

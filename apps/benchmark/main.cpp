@@ -51,7 +51,8 @@ readCorrespondences(const std::string& paths)
   const std::size_t comma = paths.find(',');
   if (comma == std::string::npos)
     return io::fromCoordinates(table(paths));
-  return io::fromPointTables(table(paths.substr(0, comma)), table(paths.substr(comma + 1)));
+  return io::fromPointTables(table(paths.substr(0, comma)),
+                             table(paths.substr(comma + 1)));
 }
 
 void
@@ -69,7 +70,8 @@ print(const Measurement& m)
   std::printf("%-34s %7zu %8zu", m.name.c_str(), m.size, m.result.inliers.size());
   for (const Spread& stage : m.stages)
     std::printf(" %9.3f", stage.median);
-  std::printf(" %8.3f %8.3f %8.3f\n", m.stages.back().p10, m.stages.back().p90, m.cold_ms);
+  std::printf(
+      " %8.3f %8.3f %8.3f\n", m.stages.back().p10, m.stages.back().p90, m.cold_ms);
   std::fflush(stdout);
 }
 
@@ -97,7 +99,8 @@ measureAll(const Options& options)
 {
   const Parameters parameters = parametersOf(options);
   std::vector<Measurement> all;
-  const auto add = [&](const std::string& name, const CorrespondenceView<double>& view) {
+  const auto add = [&](const std::string& name,
+                       const CorrespondenceView<double>& view) {
     all.push_back(measure(name, view, parameters, options.threads, options.runs));
     print(all.back());
   };
@@ -105,7 +108,8 @@ measureAll(const Options& options)
     const io::Correspondences c = readCorrespondences(file);
     const std::size_t comma = file.find(',');
     const std::string first = file.substr(0, comma);
-    add(first.substr(first.rfind('/') + 1), {c.source.data(), c.target.data(), c.size()});
+    add(first.substr(first.rfind('/') + 1),
+        {c.source.data(), c.target.data(), c.size()});
   }
   if (!options.files.empty())
     return all;
@@ -116,7 +120,8 @@ measureAll(const Options& options)
       recipe.inlier_ratio = ratio;
       recipe.side = options.side;
       char name[64];
-      std::snprintf(name, sizeof name, "cube %g, inliers %g %%", options.side, 100 * ratio);
+      std::snprintf(
+          name, sizeof name, "cube %g, inliers %g %%", options.side, 100 * ratio);
       add(name, made::make(recipe).view());
     }
   return all;
@@ -143,7 +148,8 @@ declareOptions(CLI::App& app, Options& options)
   app.add_option("--sizes", options.sizes, "numbers of made correspondences")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option("--inlier-ratios", options.inlier_ratios, "shares of right ones, 0 to 1")
+  app.add_option(
+         "--inlier-ratios", options.inlier_ratios, "shares of right ones, 0 to 1")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
@@ -159,7 +165,8 @@ declareOptions(CLI::App& app, Options& options)
   app.add_option("--second-order", options.second_order, "form of stage 2")
       ->check(CLI::IsMember({"auto", "exact", "bounded"}))
       ->capture_default_str();
-  app.add_option("--threads", options.threads, "CPU threads; 0: all")->capture_default_str();
+  app.add_option("--threads", options.threads, "CPU threads; 0: all")
+      ->capture_default_str();
   app.add_option("--runs", options.runs, "calls that are counted, a problem")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

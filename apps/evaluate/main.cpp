@@ -76,8 +76,9 @@ append(std::vector<double>& xyz, const Eigen::Vector3d& point)
 class FeatureStore {
 public:
   FeatureStore(std::string root, double leaf, unsigned threads)
-  : root_(std::move(root)), leaf_(leaf), threads_(threads)
-  {}
+      : root_(std::move(root)), leaf_(leaf), threads_(threads)
+  {
+  }
 
   struct Entry {
     FpfhCloud keypoints;
@@ -93,7 +94,8 @@ public:
     const io::ShiftedCloud cloud =
         io::toPclCloud(io::coordinates(io::readCloud(root_ + "/" + path)));
     return entries_
-        .emplace(path, Entry{computeFpfh(*cloud.points, {}, leaf_, threads_), cloud.shift})
+        .emplace(path,
+                 Entry{computeFpfh(*cloud.points, {}, leaf_, threads_), cloud.shift})
         .first->second;
   }
 
@@ -147,13 +149,16 @@ readCorrespondences(const std::string& path)
   if (at == std::string::npos)
     points = io::fromCoordinates(table(path));
   else {
-    const std::string before = path.substr(0, at), after = path.substr(at + mark.size());
+    const std::string before = path.substr(0, at),
+                      after = path.substr(at + mark.size());
     points = io::fromPointTables(table(before + "src" + after),
                                  table(before + "dst" + after));
   }
   Input input;
-  input.source.assign(points.source.data(), points.source.data() + points.source.size());
-  input.target.assign(points.target.data(), points.target.data() + points.target.size());
+  input.source.assign(points.source.data(),
+                      points.source.data() + points.source.size());
+  input.target.assign(points.target.data(),
+                      points.target.data() + points.target.size());
   return input;
 }
 
@@ -163,7 +168,8 @@ inlierRatio(const Input& input, const RigidTransform& T, double inlier_distance)
   const std::size_t n = input.source.size() / 3;
   std::size_t inliers = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Map<const Eigen::Vector3d> s(&input.source[3 * i]), t(&input.target[3 * i]);
+    const Eigen::Map<const Eigen::Vector3d> s(&input.source[3 * i]),
+        t(&input.target[3 * i]);
     inliers += (T.rotation * s + T.translation - t).norm() < inlier_distance;
   }
   return n == 0 ? 0 : static_cast<double>(inliers) / static_cast<double>(n);
@@ -192,9 +198,9 @@ registerPair(FeatureStore& store,
                                                             : input.ranks.data()};
   outcome.result = estimator.estimate(view, options.parameters);
   const RigidTransform& found = outcome.result.T_target_source;
-  outcome.rotation_error =
-      DEGREES *
-      Eigen::AngleAxisd(found.rotation.transpose() * pair.T_target_source.rotation).angle();
+  outcome.rotation_error = DEGREES * Eigen::AngleAxisd(found.rotation.transpose() *
+                                                       pair.T_target_source.rotation)
+                                         .angle();
   outcome.translation_error =
       (found.translation - pair.T_target_source.translation).norm();
   outcome.success = outcome.result.status == Status::Ok &&
@@ -251,11 +257,11 @@ printSummary(const std::string& dataset, const std::vector<Outcome>& outcomes)
 void
 writeRow(std::ostream& csv, const Pair& pair, const Outcome& o)
 {
-  csv << pair.dataset << ',' << pair.source << ',' << pair.target << ',' << o.success << ','
-      << o.result.converged << ',' << o.rotation_error << ',' << o.translation_error << ','
-      << o.correspondences << ',' << o.inlier_ratio << ',' << o.result.inliers.size() << ','
-      << o.result.distinctness << ',' << o.matching_ms << ',' << o.result.timings_ms.total
-      << std::endl;
+  csv << pair.dataset << ',' << pair.source << ',' << pair.target << ',' << o.success
+      << ',' << o.result.converged << ',' << o.rotation_error << ','
+      << o.translation_error << ',' << o.correspondences << ',' << o.inlier_ratio << ','
+      << o.result.inliers.size() << ',' << o.result.distinctness << ',' << o.matching_ms
+      << ',' << o.result.timings_ms.total << std::endl;
 }
 
 int
@@ -265,8 +271,10 @@ run(const Options& options)
   std::ofstream csv;
   if (!options.csv.empty()) {
     csv.open(options.csv);
-    csv << "dataset,source,target,success,converged,rotation_error_deg,translation_error,"
-           "correspondences,inlier_ratio,inliers,distinctness,matching_ms,estimation_ms\n";
+    csv << "dataset,source,target,success,converged,rotation_error_deg,translation_"
+           "error,"
+           "correspondences,inlier_ratio,inliers,distinctness,matching_ms,estimation_"
+           "ms\n";
     if (!csv)
       throw io::InputError(options.csv + ": cannot be written");
   }
@@ -323,7 +331,7 @@ main(int argc, char** argv)
   CLI11_PARSE(app, argc, argv);
   try {
     options.parameters = Parameters::fromResolution(options.leaf);
-    options.parameters.second_order = second_order == "exact"   ? SecondOrder::Exact
+    options.parameters.second_order = second_order == "exact"     ? SecondOrder::Exact
                                       : second_order == "bounded" ? SecondOrder::Bounded
                                                                   : SecondOrder::Auto;
     options.parameters.score_metric = score == "mae"   ? ScoreMetric::Mae
@@ -331,7 +339,8 @@ main(int argc, char** argv)
                                                        : ScoreMetric::Inliers;
     if (options.root.empty()) {
       const std::size_t slash = options.pairs_file.rfind('/');
-      options.root = slash == std::string::npos ? "." : options.pairs_file.substr(0, slash);
+      options.root =
+          slash == std::string::npos ? "." : options.pairs_file.substr(0, slash);
     }
     return evaluate::run(options);
   }

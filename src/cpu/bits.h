@@ -30,11 +30,11 @@ listBitsAbove(const std::uint64_t* row,
   const std::size_t first = i / 64;
   std::size_t count = 0;
   for (std::size_t w = begin > first ? begin : first; w < end; ++w)
-    for (std::uint64_t bits = w == first ? row[w] & bitsAbove(i % 64) : row[w]; bits != 0;
+    for (std::uint64_t bits = w == first ? row[w] & bitsAbove(i % 64) : row[w];
+         bits != 0;
          bits &= bits - 1)
-      indices[count++] =
-          static_cast<std::uint32_t>(64 * w) +
-          static_cast<std::uint32_t>(__builtin_ctzll(bits));
+      indices[count++] = static_cast<std::uint32_t>(64 * w) +
+                         static_cast<std::uint32_t>(__builtin_ctzll(bits));
   return count;
 }
 
@@ -45,7 +45,8 @@ listBits(const std::uint64_t* words, std::size_t n, Index* indices)
 {
   for (std::size_t w = 0; w < n; ++w)
     for (std::uint64_t bits = words[w]; bits != 0; bits &= bits - 1)
-      *indices++ = static_cast<Index>(64 * w) + static_cast<Index>(__builtin_ctzll(bits));
+      *indices++ =
+          static_cast<Index>(64 * w) + static_cast<Index>(__builtin_ctzll(bits));
 }
 
 /** \brief Copies the first `limit` bits of a row that has more, and zeros up to the next

@@ -18,7 +18,9 @@ constexpr std::size_t PIVOTS_A_TASK = 64;
 /** \brief The best T of the cliques offered in ascending w, best first. */
 class BestCliques {
 public:
-  BestCliques(Clique* slots, std::size_t capacity) : slots_(slots), capacity_(capacity) {}
+  BestCliques(Clique* slots, std::size_t capacity) : slots_(slots), capacity_(capacity)
+  {
+  }
 
   void
   offer(const Clique& clique)
@@ -87,17 +89,18 @@ Stages::cliquesBounded(const Edge& pivot, Clique* best) const
   const std::uint32_t* columns_u = ell_columns_.data() + pivot.u * L;
   const std::uint32_t* columns_v = ell_columns_.data() + pivot.v * L;
   BestCliques cliques(best, parameters_->cliques_per_pivot);
-  for (std::size_t a = 0, b = 0; a < ell_length_[pivot.u] && b < ell_length_[pivot.v];) {
+  for (std::size_t a = 0, b = 0;
+       a < ell_length_[pivot.u] && b < ell_length_[pivot.v];) {
     if (columns_u[a] < columns_v[b])
       ++a;
     else if (columns_u[a] > columns_v[b])
       ++b;
     else {
-      cliques.offer({pivot.u,
-                     pivot.v,
-                     columns_u[a],
-                     pivot.score + ell_scores_[pivot.u * L + a] +
-                         ell_scores_[pivot.v * L + b]});
+      cliques.offer(
+          {pivot.u,
+           pivot.v,
+           columns_u[a],
+           pivot.score + ell_scores_[pivot.u * L + a] + ell_scores_[pivot.v * L + b]});
       ++a;
       ++b;
     }
@@ -116,9 +119,9 @@ Stages::cliques()
     const std::size_t end = std::min(pivots_.size(), (task + 1) * PIVOTS_A_TASK);
     for (std::size_t p = task * PIVOTS_A_TASK; p < end; ++p) {
       Clique* slots = clique_slots_.data() + p * T;
-      clique_counts_[p] = static_cast<std::uint32_t>(
-          exact_ ? cliquesExact(pivots_[p], thread, slots)
-                 : cliquesBounded(pivots_[p], slots));
+      clique_counts_[p] =
+          static_cast<std::uint32_t>(exact_ ? cliquesExact(pivots_[p], thread, slots)
+                                            : cliquesBounded(pivots_[p], slots));
     }
   });
   cliques_.clear();

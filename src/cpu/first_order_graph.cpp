@@ -45,8 +45,8 @@ setThresholds(EdgeTestInput& in, double radius)
   const double R = radius * (1 + 1e-6);
   const double tau = in.length_tolerance;
   const double r = in.min_length_sum;
-  in.use_filter = R >= 1e-6 && R <= 1e6 && tau <= R && tau >= 1e-6 * R && r >= 2 * tau &&
-                  r <= 4 * R;
+  in.use_filter = R >= 1e-6 && R <= 1e6 && tau <= R && tau >= 1e-6 * R &&
+                  r >= 2 * tau && r <= 4 * R;
   const double defect_margin = 2048 * UNIT_ROUNDOFF * R * R * R * tau;
   const double sum_margin = 128 * UNIT_ROUNDOFF * R * R + 1e-6 * r * r;
   in.minus_two_tau2 = static_cast<float>(-2 * tau * tau);
@@ -116,7 +116,9 @@ Stages::testBlock(const EdgeTestInput& input,
 /** \brief Fills a tile of blocks and its mirror image. Both are put together on the side
  * and then copied by whole cache lines. */
 void
-Stages::fillTile(const EdgeTestInput& input, std::size_t tile_row, std::size_t tile_column)
+Stages::fillTile(const EdgeTestInput& input,
+                 std::size_t tile_row,
+                 std::size_t tile_column)
 {
   const std::size_t blocks = problem_->padded_size / WORD_BITS;
   const std::size_t row0 = tile_row * TILE_BLOCKS, column0 = tile_column * TILE_BLOCKS;

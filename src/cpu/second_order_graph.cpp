@@ -105,18 +105,18 @@ Stages::scoreExactly()
     std::copy(row_begin_.begin() + begin, row_begin_.begin() + end, next);
     for (std::size_t band = begin / WORD_BITS; band < words_; band += band_words)
       for (std::size_t u = begin; u < end; ++u) {
-        const std::size_t count =
-            listBitsAbove(row(u),
-                          static_cast<std::uint32_t>(u),
-                          band,
-                          std::min(words_, band + band_words),
-                          columns);
+        const std::size_t count = listBitsAbove(row(u),
+                                                static_cast<std::uint32_t>(u),
+                                                band,
+                                                std::min(words_, band + band_words),
+                                                columns);
         std::uint32_t* scores = scores_.data() + next[u - begin];
         kernels_.commonNeighbours(
             row(u), graph_.data(), words_, words_, columns, count, scores);
         next[u - begin] += count;
         if (count != 0)
-          row_best_[u] = std::max(row_best_[u], *std::max_element(scores, scores + count));
+          row_best_[u] =
+              std::max(row_best_[u], *std::max_element(scores, scores + count));
       }
   });
 }

@@ -15,8 +15,9 @@ namespace {
 class CpuBackend : public Backend {
 public:
   explicit CpuBackend(unsigned num_threads)
-  : kernels_(selectKernels()), stages_(kernels_, num_threads)
-  {}
+      : kernels_(selectKernels()), stages_(kernels_, num_threads)
+  {
+  }
 
   std::string
   name() const override
@@ -59,12 +60,12 @@ Stages::copyTo(Trace& trace) const
   std::vector<std::uint32_t> columns(size());
   const std::size_t L = parameters_->row_capacity, m = parameters_->pool_capacity;
   for (std::uint32_t u = 0; u < size(); ++u) {
-    const std::size_t length = exact_ ? listBitsAbove(row(u), u, 0, words_, columns.data())
-                                      : ell_length_[u];
+    const std::size_t length =
+        exact_ ? listBitsAbove(row(u), u, 0, words_, columns.data()) : ell_length_[u];
     for (std::size_t i = 0; i < length; ++i) {
-      const Edge edge =
-          exact_ ? Edge{u, columns[i], scores_[row_begin_[u] + i]}
-                 : Edge{u, ell_columns_[u * L + i], ell_scores_[u * L + i]};
+      const Edge edge = exact_
+                            ? Edge{u, columns[i], scores_[row_begin_[u] + i]}
+                            : Edge{u, ell_columns_[u * L + i], ell_scores_[u * L + i]};
       if (edge.score > 0)
         trace.second_order_graph.push_back(edge);
     }

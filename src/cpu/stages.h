@@ -21,7 +21,9 @@ namespace cpu {
 class Stages {
 public:
   /** \param[in] threads 0 takes the number of processors */
-  Stages(const Kernels& kernels, unsigned threads) : kernels_(kernels), pool_(threads) {}
+  Stages(const Kernels& kernels, unsigned threads) : kernels_(kernels), pool_(threads)
+  {
+  }
 
   void
   begin(const Problem& problem, const Parameters& parameters);

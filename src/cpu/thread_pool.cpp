@@ -31,9 +31,11 @@ spinUntil(const Condition& condition)
 } // namespace
 
 ThreadPool::ThreadPool(unsigned threads)
-: size_(std::clamp(
-      threads != 0 ? threads : std::thread::hardware_concurrency(), 1u, MOST_THREADS))
-{}
+    : size_(std::clamp(threads != 0 ? threads : std::thread::hardware_concurrency(),
+                       1u,
+                       MOST_THREADS))
+{
+}
 
 ThreadPool::~ThreadPool()
 {

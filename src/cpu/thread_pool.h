@@ -52,10 +52,9 @@ public:
         task(i, std::size_t{0});
       return;
     }
-    run(
-        [](const void* opaque, std::size_t i, std::size_t thread) {
-          (*static_cast<const Task*>(opaque))(i, thread);
-        },
+    run([](const void* opaque,
+           std::size_t i,
+           std::size_t thread) { (*static_cast<const Task*>(opaque))(i, thread); },
         &task,
         count);
   }

@@ -96,7 +96,9 @@ Stages::scoreOf(const PoseF& T,
 }
 
 int
-Stages::findInliers(const PoseF& T, std::uint64_t* inliers, std::uint64_t* scratch) const
+Stages::findInliers(const PoseF& T,
+                    std::uint64_t* inliers,
+                    std::uint64_t* scratch) const
 {
   const std::size_t words = problem_->padded_size / WORD_BITS;
   kernels_.residualTest(residualInput(T), 0, words, inliers, scratch);

@@ -21,12 +21,9 @@ struct PoseF {
 PCL_FLASHREG_HD inline float
 squaredResidual(const PoseF& T, const PointPair& c)
 {
-  const float dx =
-      (((T.r[0] * c.sx + T.r[1] * c.sy) + T.r[2] * c.sz) + T.t[0]) - c.tx;
-  const float dy =
-      (((T.r[3] * c.sx + T.r[4] * c.sy) + T.r[5] * c.sz) + T.t[1]) - c.ty;
-  const float dz =
-      (((T.r[6] * c.sx + T.r[7] * c.sy) + T.r[8] * c.sz) + T.t[2]) - c.tz;
+  const float dx = (((T.r[0] * c.sx + T.r[1] * c.sy) + T.r[2] * c.sz) + T.t[0]) - c.tx;
+  const float dy = (((T.r[3] * c.sx + T.r[4] * c.sy) + T.r[5] * c.sz) + T.t[1]) - c.ty;
+  const float dz = (((T.r[6] * c.sx + T.r[7] * c.sy) + T.r[8] * c.sz) + T.t[2]) - c.tz;
   return (dx * dx + dy * dy) + dz * dz;
 }
 

@@ -32,7 +32,7 @@ exists(const std::string& file)
 } // namespace pcl_flashreg
 
 /** \brief Skips a test, and says so, where a data set is absent. */
-#define PCL_FLASHREG_NEEDS_DATA(file)                                                    \
-  if (!pcl_flashreg::datasets::exists(file))                                             \
-  GTEST_SKIP() << "no " << file << " in " << pcl_flashreg::datasets::folder()            \
+#define PCL_FLASHREG_NEEDS_DATA(file)                                                  \
+  if (!pcl_flashreg::datasets::exists(file))                                           \
+  GTEST_SKIP() << "no " << file << " in " << pcl_flashreg::datasets::folder()          \
                << " (set PCL_FLASHREG_DATASETS)"

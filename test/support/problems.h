@@ -70,7 +70,8 @@ tiedGrid()
           problem.correspondences.source.push_back(value);
           problem.correspondences.target.push_back(value + 1);
         }
-  problem.correspondences.T_target_source = Eigen::Isometry3d(Eigen::Translation3d(1, 1, 1));
+  problem.correspondences.T_target_source =
+      Eigen::Isometry3d(Eigen::Translation3d(1, 1, 1));
   problem.correspondences.is_inlier.assign(210, 1);
   return problem;
 }
@@ -99,7 +100,8 @@ farApart(double side)
   recipe.size = 300;
   recipe.inlier_ratio = 0.3;
   recipe.side = side;
-  NamedProblem problem{"side_" + std::to_string(static_cast<long>(side)), make(recipe), {}};
+  NamedProblem problem{
+      "side_" + std::to_string(static_cast<long>(side)), make(recipe), {}};
   return problem;
 }
 

@@ -31,8 +31,10 @@ struct Matrix {
   std::size_t n;
   std::vector<Value> values;
 
-  explicit Matrix(std::size_t size, Value value = Value{}) : n(size), values(n * n, value)
-  {}
+  explicit Matrix(std::size_t size, Value value = Value{})
+      : n(size), values(n * n, value)
+  {
+  }
   Value&
   at(std::size_t i, std::size_t j)
   {

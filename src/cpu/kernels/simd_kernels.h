@@ -202,8 +202,7 @@ transposeBits(std::uint64_t block[64])
   for (unsigned width = 32; width != 0; width >>= 1, mask ^= mask << width)
     for (unsigned base = 0; base < 64; base += 2 * width)
       for (unsigned k = base; k < base + width; ++k) {
-        const std::uint64_t swapped =
-            ((block[k] >> width) ^ block[k + width]) & mask;
+        const std::uint64_t swapped = ((block[k] >> width) ^ block[k + width]) & mask;
         block[k] ^= swapped << width;
         block[k + width] ^= swapped;
       }

@@ -12,13 +12,15 @@
 /** \brief A row of pseudo-random numbers in [0, 1). */
 class Numbers {
 public:
-  double next()
+  double
+  next()
   {
     state_ = state_ * 6364136223846793005u + 1442695040888963407u;
     return static_cast<double>(state_ >> 11) * 0x1.0p-53;
   }
 
-  Eigen::Vector3d nextPoint(double size)
+  Eigen::Vector3d
+  nextPoint(double size)
   {
     const double x = size * next();
     const double y = size * next();
