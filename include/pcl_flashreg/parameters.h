@@ -94,7 +94,7 @@ struct PCL_FLASHREG_EXPORT Parameters {
 
   /** \brief ... and at least this many times the inliers of the best hypothesis that
    * disagrees with it. >= 1. How both were chosen: docs/method.md. */
-  float min_distinctness = 1.25f;
+  float min_distinctness = 1.5f;
 
   /** \brief All lengths from the resolution of the clouds (the voxel size v):
    * length_tolerance 0.24 v, min_length_sum 3 v, inlier_distance 2 v.
