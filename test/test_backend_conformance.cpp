@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Dispatch, RefusesUnknownNames)
 {
   setenv("PCL_FLASHREG_CPU", "sse9", 1);
-  EXPECT_THROW(Estimator(BackendKind::Cpu), std::invalid_argument);
+  EXPECT_THROW(Estimator{BackendKind::Cpu}, std::invalid_argument);
   unsetenv("PCL_FLASHREG_CPU");
 }
 
@@ -118,7 +118,7 @@ TEST(Dispatch, RefusesVariantsOfOtherProcessors)
 #else
   setenv("PCL_FLASHREG_CPU", "avx2", 1);
 #endif
-  EXPECT_THROW(Estimator(BackendKind::Cpu), BackendError);
+  EXPECT_THROW(Estimator{BackendKind::Cpu}, BackendError);
   unsetenv("PCL_FLASHREG_CPU");
 }
 

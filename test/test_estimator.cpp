@@ -353,7 +353,7 @@ TEST(Estimator, TakesTwentyThousandInliers)
 
 TEST(Estimator, CudaIsRefusedWhereItIsNotBuiltIn)
 {
-  EXPECT_THROW(Estimator(BackendKind::Cuda), BackendError);
+  EXPECT_THROW(Estimator{BackendKind::Cuda}, BackendError);
 }
 
 TEST(Estimator, ReportsItsTimes)

@@ -146,13 +146,21 @@ inline double
 roundToPreferredNumber(double value)
 {
   constexpr double steps[] = {1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3, 8, 10};
-  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  // Powers of ten are exact upwards only, so that dividing by one gives the double that is
+  // printed as it is meant.
+  const double exponent = std::floor(std::log10(value));
+  const double power = std::pow(10.0, std::abs(exponent));
+  const auto scaled = [&](double step) {
+    return exponent < 0 ? step / power : step * power;
+  };
+  const auto distance = [&](double step) {
+    return std::abs(std::log(value / scaled(step)));
+  };
   double best = steps[0];
   for (const double step : steps)
-    if (std::abs(std::log(value / (decade * step))) <
-        std::abs(std::log(value / (decade * best))))
+    if (distance(step) < distance(best))
       best = step;
-  return decade * best;
+  return scaled(best);
 }
 
 } // namespace detail
