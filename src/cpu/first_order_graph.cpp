@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace pcl_flashreg {
 namespace cpu {
@@ -113,45 +112,27 @@ Stages::testBlock(const EdgeTestInput& input,
       edges[r] &= ~(std::uint64_t{1} << r);
 }
 
-/** \brief Fills a tile of blocks and its mirror image. Both are put together on the side
- * and then copied by whole cache lines. */
+/** \brief Fills a tile of blocks and its mirror image. */
 void
 Stages::fillTile(const EdgeTestInput& input,
                  std::size_t tile_row,
                  std::size_t tile_column)
 {
   const std::size_t blocks = problem_->padded_size / WORD_BITS;
-  const std::size_t row0 = tile_row * TILE_BLOCKS, column0 = tile_column * TILE_BLOCKS;
-  const std::size_t rows = std::min(TILE_BLOCKS, blocks - row0);
-  const std::size_t columns = std::min(TILE_BLOCKS, blocks - column0);
-  alignas(64) std::uint64_t upper[TILE_BLOCKS * WORD_BITS][TILE_BLOCKS] = {};
-  alignas(64) std::uint64_t lower[TILE_BLOCKS * WORD_BITS][TILE_BLOCKS] = {};
-  for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t j = tile_row == tile_column ? i : 0; j < columns; ++j) {
+  const std::size_t row_end = std::min(blocks, (tile_row + 1) * TILE_BLOCKS);
+  const std::size_t column_end = std::min(blocks, (tile_column + 1) * TILE_BLOCKS);
+  for (std::size_t i = tile_row * TILE_BLOCKS; i < row_end; ++i)
+    for (std::size_t j = std::max(i, tile_column * TILE_BLOCKS); j < column_end; ++j) {
       std::uint64_t edges[WORD_BITS];
-      testBlock(input, row0 + i, column0 + j, edges);
+      testBlock(input, i, j, edges);
       for (std::size_t r = 0; r < WORD_BITS; ++r)
-        upper[i * WORD_BITS + r][j] = edges[r];
+        graph_[(i * WORD_BITS + r) * words_ + j] = edges[r];
+      if (i == j)
+        continue;
       kernels_.transpose(edges);
       for (std::size_t r = 0; r < WORD_BITS; ++r)
-        lower[j * WORD_BITS + r][i] = edges[r];
+        graph_[(j * WORD_BITS + r) * words_ + i] = edges[r];
     }
-  const auto copy = [this](const std::uint64_t(*from)[TILE_BLOCKS],
-                           std::size_t count,
-                           std::size_t first_row,
-                           std::size_t first_word) {
-    for (std::size_t r = 0; r < count * WORD_BITS; ++r)
-      std::memcpy(graph_.data() + (first_row * WORD_BITS + r) * words_ + first_word,
-                  from[r],
-                  TILE_BLOCKS * sizeof(std::uint64_t));
-  };
-  if (tile_row == tile_column)
-    for (std::size_t r = 0; r < rows * WORD_BITS; ++r)
-      for (std::size_t j = 0; j < r / WORD_BITS; ++j)
-        upper[r][j] = lower[r][j];
-  else
-    copy(lower, columns, column0, row0);
-  copy(upper, rows, row0, column0);
 }
 
 void
@@ -160,6 +141,9 @@ Stages::firstOrderGraph()
   const std::size_t blocks = problem_->padded_size / WORD_BITS;
   words_ = (blocks + TILE_BLOCKS - 1) / TILE_BLOCKS * TILE_BLOCKS;
   graph_.resize(problem_->padded_size * words_);
+  for (std::size_t i = 0; i < problem_->padded_size; ++i)
+    for (std::size_t w = blocks; w < words_; ++w)
+      graph_[i * words_ + w] = 0;
   const EdgeTestInput input = edgeTestInput();
   const std::size_t tiles = words_ / TILE_BLOCKS;
   // Tiles of the upper triangle, numbered row by row.
