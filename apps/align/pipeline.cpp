@@ -9,26 +9,13 @@
 
 #include <pcl_flashreg/estimator.h>
 
-#include <chrono>
 #include <sstream>
 
 namespace pcl_flashreg::align {
 namespace {
 
+using detail::Stopwatch;
 using io::InputError;
-
-class Stopwatch {
-public:
-  double
-  milliseconds() const
-  {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
-  }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 std::string
 shortNumber(double value)

@@ -6,12 +6,13 @@
 #include "methods.h"
 #include "pairs.h"
 
+#include <pcl_flashreg/impl/stopwatch.hpp>
+
 #include "../io/error.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -96,13 +97,12 @@ run(const Options& options)
     if (!wanted.empty() &&
         std::find(wanted.begin(), wanted.end(), pair.dataset) == wanted.end())
       continue;
-    const auto start = std::chrono::steady_clock::now();
+    const detail::Stopwatch matching;
     const Input input = correspondencesOf(pair, store, options);
-    const std::chrono::duration<double, std::milli> matching =
-        std::chrono::steady_clock::now() - start;
+    const double matching_ms = matching.milliseconds();
     Outcome outcome = judge(
         method(input), pair, input, parameters.inlier_distance, options.criterion);
-    outcome.matching_ms = matching.count();
+    outcome.matching_ms = matching_ms;
     outcomes[pair.dataset].push_back(outcome);
     if (csv.is_open())
       writeCsvRow(csv, pair, outcome);

@@ -4,24 +4,17 @@
 #include "methods.h"
 
 #include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <pcl/registration/correspondence_rejection_sample_consensus.h>
 
-#include <chrono>
 #include <memory>
 #include <stdexcept>
 
 namespace pcl_flashreg::evaluate {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-
-double
-millisecondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 Answer
 runFlashreg(Estimator& estimator, const Parameters& parameters, const Input& input)
@@ -64,10 +57,10 @@ runPclRansac(int iterations, const Parameters& parameters, const Input& input)
   for (int i = 0; i < static_cast<int>(input.size()); ++i)
     all.emplace_back(i, i, 0.0f);
 
-  const Clock::time_point start = Clock::now();
+  const detail::Stopwatch estimation;
   rejector.getRemainingCorrespondences(all, remaining);
   Answer answer;
-  answer.estimation_ms = millisecondsSince(start);
+  answer.estimation_ms = estimation.milliseconds();
   const Eigen::Matrix4d T = rejector.getBestTransformation().cast<double>();
   answer.found = !T.isIdentity();
   answer.trusted = answer.found;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl_flashreg/fpfh_features.h>
+#include <pcl_flashreg/impl/stopwatch.hpp>
 #include <pcl_flashreg/impl/voxel_count.hpp>
 
 #include <pcl/common/point_tests.h>
@@ -12,7 +13,6 @@
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/search/kdtree.h>
 
-#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <sstream>
@@ -23,20 +23,6 @@ namespace detail {
 using PointsXYZ = pcl::PointCloud<pcl::PointXYZ>;
 using Normals = pcl::PointCloud<pcl::Normal>;
 using Fpfh33 = pcl::PointCloud<pcl::FPFHSignature33>;
-
-/** \brief Milliseconds since construction. */
-class Stopwatch {
-public:
-  double
-  milliseconds() const
-  {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
-  }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 /** \brief The finite ones of the points that the indices name (all, if empty). */
 template <typename PointT>
