@@ -125,15 +125,18 @@ TEST(ComputeFpfh, RejectsResolutionsThatMakeNoSense)
     EXPECT_THROW(computeFpfh(room(), {}, resolution), std::invalid_argument);
 }
 
-TEST(ComputeFpfh, RejectsResolutionsTooSmallForTheExtent)
+TEST(ComputeFpfh, WithPclRejectsResolutionsTooSmallForTheExtent)
 {
+  const auto compute = [](const Cloud& cloud, double resolution) {
+    computeFpfh(cloud, {}, resolution, 1, nullptr, FrontEnd::Pcl);
+  };
   // 3 m x 2.4 m x 2 m in voxels of 1 mm are 1.4e10 of them.
-  EXPECT_THROW(computeFpfh(room(), {}, 0.001), std::invalid_argument);
+  EXPECT_THROW(compute(room(), 0.001), std::invalid_argument);
   // Few voxels, but at numbers beyond 2^31.
   Cloud far;
   for (int i = 0; i < 10; ++i)
     far.push_back(pcl::PointXYZ(3e9f, 1, 1));
-  EXPECT_THROW(computeFpfh(far, {}, 0.5), std::invalid_argument);
+  EXPECT_THROW(compute(far, 0.5), std::invalid_argument);
 }
 
 TEST(EstimateResolution, FindsTheVoxelSizeThatTheDensityAllows)

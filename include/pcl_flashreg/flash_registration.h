@@ -141,6 +141,20 @@ public:
     feature_representation_ = representation;
   }
 
+  /** \brief Who computes the descriptors, where none are given; FrontEnd::Native by
+   * default. */
+  void
+  setFrontEnd(FrontEnd front_end)
+  {
+    front_end_ = front_end;
+  }
+
+  FrontEnd
+  getFrontEnd() const
+  {
+    return front_end_;
+  }
+
   /** \brief Correspondences between input source and input target to use instead of
    * descriptors; null to use descriptors again. Those with a smaller `distance` are
    * kept where there are more than Parameters::max_correspondences. Those without a
@@ -403,6 +417,7 @@ private:
   FeatureRepresentationConstPtr feature_representation_;
   pcl::CorrespondencesConstPtr given_correspondences_;
   int k_correspondences_ = 1;
+  FrontEnd front_end_ = FrontEnd::Native;
 
   double resolution_ = 0;
   double estimated_resolution_ = 0;

@@ -9,11 +9,21 @@
 
 namespace pcl_flashreg {
 
-/** \brief Keypoints of a cloud (one a voxel) and their FPFH descriptors; same size and
- * order. Both pointers are null until something was computed. */
+/** \brief Who computes keypoints, normals and descriptors. */
+enum class FrontEnd {
+  /** \brief FeatureExtractor: PCL's quantities, some twenty times as fast. */
+  Native,
+  /** \brief pcl::VoxelGrid, NormalEstimationOMP and FPFHEstimationOMP. */
+  Pcl
+};
+
+/** \brief Keypoints of a cloud (one a voxel), their normals and FPFH descriptors; same
+ * size and order. All pointers are null until something was computed. */
 struct FpfhCloud {
   /** \brief Frame and unit of the cloud that they come from. */
   pcl::PointCloud<pcl::PointXYZ>::Ptr points;
+  /** \brief Towards the cloud's sensor_origin_. */
+  pcl::PointCloud<pcl::Normal>::Ptr normals;
   pcl::PointCloud<pcl::FPFHSignature33>::Ptr features;
 };
 
@@ -35,10 +45,11 @@ struct FpfhTimings {
  * \param[in] resolution voxel size, in the unit of the cloud, > 0 and finite
  * \param[in] num_threads CPU threads; 0 takes as many as there are processors
  * \param[out] timings of the three steps, if not null
+ * \param[in] front_end see there
  * \return possibly without any point, never with null pointers
  * \throws std::invalid_argument if the resolution is not > 0 and finite; if it is so
- * small for the extent of the cloud that pcl::VoxelGrid can't number the voxels (more
- * than 2^31); if an index is not one of the cloud
+ * small for the extent of the cloud that the voxels can't be numbered (with 64 bits;
+ * pcl::VoxelGrid: more than 2^31 of them); if an index is not one of the cloud
  */
 template <typename PointT>
 FpfhCloud
@@ -46,7 +57,8 @@ computeFpfh(const pcl::PointCloud<PointT>& cloud,
             const pcl::Indices& indices,
             double resolution,
             unsigned num_threads = 0,
-            FpfhTimings* timings = nullptr);
+            FpfhTimings* timings = nullptr,
+            FrontEnd front_end = FrontEnd::Native);
 
 /** \brief A resolution for a cloud that nobody gave one for, in the unit of the cloud.
  *

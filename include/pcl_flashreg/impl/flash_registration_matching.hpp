@@ -105,9 +105,9 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::matchComputedFeatures()
                                      target_cache_.estimatedResolution(*target_));
   const unsigned num_threads = estimator_.numThreads();
   timings_.source_features =
-      source_cache_.update(*input_, getResolution(), num_threads);
+      source_cache_.update(*input_, getResolution(), front_end_, num_threads);
   timings_.target_features =
-      target_cache_.update(*target_, getResolution(), num_threads);
+      target_cache_.update(*target_, getResolution(), front_end_, num_threads);
 
   const detail::Stopwatch matching;
   const FpfhCloud& source = source_cache_.fpfh();

@@ -44,13 +44,17 @@ public:
   /** \return what it took; 0 where nothing was to be done */
   template <typename PointT>
   FpfhTimings
-  update(const pcl::PointCloud<PointT>& cloud, double resolution, unsigned num_threads)
+  update(const pcl::PointCloud<PointT>& cloud,
+         double resolution,
+         FrontEnd front_end,
+         unsigned num_threads)
   {
     FpfhTimings timings;
-    if (resolution == resolution_)
+    if (resolution == resolution_ && front_end == front_end_)
       return timings;
-    fpfh_ = computeFpfh(cloud, indices_, resolution, num_threads, &timings);
+    fpfh_ = computeFpfh(cloud, indices_, resolution, num_threads, &timings, front_end);
     resolution_ = resolution;
+    front_end_ = front_end;
     return timings;
   }
 
@@ -65,6 +69,7 @@ private:
   pcl::Indices indices_;
   /** \brief Of fpfh_; 0 if that is not up to date. */
   double resolution_ = 0;
+  FrontEnd front_end_ = FrontEnd::Native;
   std::optional<double> estimate_;
 };
 

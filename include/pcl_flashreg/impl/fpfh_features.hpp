@@ -3,26 +3,17 @@
 
 #pragma once
 
+#include <pcl_flashreg/feature_extractor.h>
 #include <pcl_flashreg/fpfh_features.h>
-#include <pcl_flashreg/impl/stopwatch.hpp>
+#include <pcl_flashreg/impl/pcl_front_end.hpp>
 #include <pcl_flashreg/impl/voxel_count.hpp>
 
-#include <pcl/common/point_tests.h>
-#include <pcl/features/fpfh_omp.h>
-#include <pcl/features/normal_3d_omp.h>
-#include <pcl/filters/voxel_grid.h>
-#include <pcl/search/kdtree.h>
-
-#include <cstdint>
-#include <limits>
-#include <sstream>
+#include <cstring>
+#include <memory>
+#include <vector>
 
 namespace pcl_flashreg {
 namespace detail {
-
-using PointsXYZ = pcl::PointCloud<pcl::PointXYZ>;
-using Normals = pcl::PointCloud<pcl::Normal>;
-using Fpfh33 = pcl::PointCloud<pcl::FPFHSignature33>;
 
 /** \brief The finite ones of the points that the indices name (all, if empty). */
 template <typename PointT>
@@ -50,105 +41,94 @@ finitePoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
   return points;
 }
 
-/** \brief pcl::VoxelGrid numbers voxels with 32 bits, and returns the cloud unfiltered,
- * with a warning only, where these don't suffice; so that is checked beforehand.
- * \throws std::invalid_argument */
-inline void
-checkVoxelGrid(const PointsXYZ& points, double resolution)
-{
-  std::ostringstream error;
-  if (!(resolution > 0) || !std::isfinite(resolution)) {
-    error << "the resolution is " << resolution << ", it must be > 0 and finite";
-    throw std::invalid_argument(error.str());
-  }
-  double voxels = 1;
-  bool fits = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto bounds = std::minmax_element(
-        points.begin(), points.end(), [axis](const auto& a, const auto& b) {
-          return a.data[axis] < b.data[axis];
-        });
-    const double low = std::floor(bounds.first->data[axis] / resolution);
-    const double high = std::floor(bounds.second->data[axis] / resolution);
-    voxels *= high - low + 1;
-    fits &= std::max(std::abs(low), std::abs(high)) < std::numeric_limits<int>::max();
-  }
-  // One voxel an axis to spare: PCL divides in single precision.
-  if (fits && voxels < 0.5 * std::numeric_limits<int>::max())
-    return;
-  error << "the resolution " << resolution
-        << " is too small for the extent of the cloud: "
-        << "more voxels than 32 bits can number";
-  throw std::invalid_argument(error.str());
-}
-
-/** \brief One point a voxel, the centroid of those in it. */
-inline PointsXYZ::Ptr
-downsample(const PointsXYZ::ConstPtr& points, double resolution)
-{
-  PointsXYZ::Ptr keypoints(new PointsXYZ);
-  pcl::VoxelGrid<pcl::PointXYZ> grid;
-  const auto leaf = static_cast<float>(resolution);
-  grid.setLeafSize(leaf, leaf, leaf);
-  grid.setInputCloud(points);
-  grid.filter(*keypoints);
-  return keypoints;
-}
-
-inline Normals::Ptr
-estimateNormals(const PointsXYZ::ConstPtr& points, double radius, unsigned num_threads)
-{
-  Normals::Ptr normals(new Normals);
-  pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation(num_threads);
-  estimation.setSearchMethod(
-      pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
-  estimation.setRadiusSearch(radius);
-  estimation.setInputCloud(points);
-  const auto& origin = points->sensor_origin_;
-  estimation.setViewPoint(origin.x(), origin.y(), origin.z());
-  estimation.compute(*normals);
-  return normals;
-}
-
-inline Fpfh33::Ptr
-estimateFpfh(const PointsXYZ::ConstPtr& points,
-             const Normals::ConstPtr& normals,
-             double radius,
-             unsigned num_threads)
-{
-  Fpfh33::Ptr features(new Fpfh33);
-  pcl::FPFHEstimationOMP<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> estimation(
-      num_threads);
-  estimation.setSearchMethod(
-      pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
-  estimation.setRadiusSearch(radius);
-  estimation.setInputCloud(points);
-  estimation.setInputNormals(normals);
-  estimation.compute(*features);
-  return features;
-}
-
-/** \brief Keeps the points, and what belongs to them, for which the test is true. */
-template <typename CompanionT, typename Test>
-void
-keepIf(PointsXYZ& points, pcl::PointCloud<CompanionT>& companions, Test test)
-{
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (test(companions[i])) {
-      points[kept] = points[i];
-      companions[kept++] = companions[i];
+/** \brief The points as rows of floats: in place, or, where a point type keeps its
+ * coordinates apart, a copy. */
+template <typename PointT>
+class FloatRows {
+public:
+  explicit FloatRows(const pcl::PointCloud<PointT>& cloud)
+  {
+    view_.size = cloud.size();
+    if (cloud.empty())
+      return;
+    const PointT& first = cloud[0];
+    const bool in_place = sizeof(PointT) % sizeof(float) == 0 &&
+                          &first.y == &first.x + 1 && &first.z == &first.x + 2;
+    if (in_place) {
+      view_.data = &first.x;
+      view_.stride = sizeof(PointT) / sizeof(float);
+      return;
     }
-  points.resize(kept);
-  companions.resize(kept);
+    copy_.reserve(3 * cloud.size());
+    for (const PointT& point : cloud)
+      copy_.insert(copy_.end(), {point.x, point.y, point.z});
+    view_.data = copy_.data();
+  }
+
+  const PointView&
+  view() const
+  {
+    return view_;
+  }
+
+private:
+  PointView view_;
+  std::vector<float> copy_;
+};
+
+inline FpfhCloud
+toFpfhCloud(const DescribedCloud& described)
+{
+  FpfhCloud result;
+  result.points.reset(new PointsXYZ);
+  result.normals.reset(new Normals);
+  result.features.reset(new Fpfh33);
+  result.points->reserve(described.size);
+  result.normals->reserve(described.size);
+  for (std::size_t i = 0; i < described.size; ++i) {
+    const float* point = &described.points[3 * i];
+    const float* normal = &described.normals[3 * i];
+    result.points->emplace_back(point[0], point[1], point[2]);
+    result.normals->emplace_back(normal[0], normal[1], normal[2]);
+    result.normals->back().curvature = described.curvatures[i];
+  }
+  static_assert(sizeof(pcl::FPFHSignature33) == 33 * sizeof(float));
+  result.features->resize(described.size);
+  if (described.size > 0)
+    std::memcpy((*result.features)[0].histogram,
+                described.descriptors.data(),
+                described.descriptors.size() * sizeof(float));
+  return result;
 }
 
-inline bool
-isFiniteFpfh(const pcl::FPFHSignature33& feature)
+template <typename PointT>
+FpfhCloud
+computeFpfhNatively(const pcl::PointCloud<PointT>& cloud,
+                    const pcl::Indices& indices,
+                    double resolution,
+                    unsigned num_threads,
+                    FpfhTimings& timings)
 {
-  return std::all_of(std::begin(feature.histogram),
-                     std::end(feature.histogram),
-                     [](float value) { return std::isfinite(value); });
+  const FloatRows<PointT> rows(cloud);
+  const std::vector<std::int32_t> selected(indices.begin(), indices.end());
+  PointView view = rows.view();
+  if (!indices.empty()) {
+    view.indices = selected.data();
+    view.index_count = selected.size();
+  }
+  FeatureParameters parameters = FeatureParameters::fromResolution(resolution);
+  for (int axis = 0; axis < 3; ++axis)
+    parameters.viewpoint[axis] = cloud.sensor_origin_[axis];
+  FeatureTimings spent;
+  const FpfhCloud result =
+      toFpfhCloud(FeatureExtractor(num_threads).describe(view, parameters, &spent));
+  result.points->header = cloud.header;
+  result.points->sensor_origin_ = cloud.sensor_origin_;
+  result.points->sensor_orientation_ = cloud.sensor_orientation_;
+  timings.voxel_grid = spent.voxel_grid;
+  timings.normals = spent.neighbor_grid + spent.normals;
+  timings.features = spent.point_histograms + spent.feature_histograms;
+  return result;
 }
 
 } // namespace detail
@@ -159,34 +139,15 @@ computeFpfh(const pcl::PointCloud<PointT>& cloud,
             const pcl::Indices& indices,
             double resolution,
             unsigned num_threads,
-            FpfhTimings* timings)
+            FpfhTimings* timings,
+            FrontEnd front_end)
 {
-  using namespace detail;
   FpfhTimings spent;
-  FpfhCloud result;
-  result.features.reset(new Fpfh33);
-
-  const Stopwatch voxel_grid;
-  result.points = finitePoints(cloud, indices);
-  if (!result.points->empty()) {
-    checkVoxelGrid(*result.points, resolution);
-    result.points = downsample(result.points, resolution);
-    spent.voxel_grid = voxel_grid.milliseconds();
-
-    const Stopwatch normal_estimation;
-    const auto normals = estimateNormals(result.points, 2 * resolution, num_threads);
-    keepIf(*result.points, *normals, [](const pcl::Normal& normal) {
-      return pcl::isNormalFinite(normal);
-    });
-    spent.normals = normal_estimation.milliseconds();
-
-    const Stopwatch description;
-    if (!result.points->empty())
-      result.features =
-          estimateFpfh(result.points, normals, 5 * resolution, num_threads);
-    keepIf(*result.points, *result.features, isFiniteFpfh);
-    spent.features = description.milliseconds();
-  }
+  FpfhCloud result =
+      front_end == FrontEnd::Pcl
+          ? detail::computeFpfhWithPcl(
+                detail::finitePoints(cloud, indices), resolution, num_threads, spent)
+          : detail::computeFpfhNatively(cloud, indices, resolution, num_threads, spent);
   if (timings)
     *timings = spent;
   return result;

@@ -4,12 +4,29 @@
 // AVX2, FMA and POPCNT (Haswell and Zen on).
 
 #include "cpu/kernels/simd_kernels.h"
+#include "cpu/kernels/surface_kernels.h"
 
 #include <immintrin.h>
 
 namespace pcl_flashreg {
 namespace cpu {
 namespace {
+
+/** \brief The positions of the bits set in a byte, a byte each, lowest first. */
+struct SetBits {
+  std::uint64_t of[256] = {};
+
+  constexpr SetBits()
+  {
+    for (std::uint32_t byte = 0; byte < 256; ++byte) {
+      std::uint32_t count = 0;
+      for (std::uint64_t bit = 0; bit < 8; ++bit)
+        if (byte >> bit & 1)
+          of[byte] |= bit << (8 * count++);
+    }
+  }
+};
+constexpr SetBits SET_BITS;
 
 struct Avx2 {
   using Float = __m256;
@@ -68,6 +85,72 @@ struct Avx2 {
   {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
   }
+  static Float
+  loadUnaligned(const float* p)
+  {
+    return _mm256_loadu_ps(p);
+  }
+  static void
+  storeUnaligned(float* p, Float a)
+  {
+    _mm256_storeu_ps(p, a);
+  }
+  static Float
+  gather(const float* base, const std::uint32_t* indices)
+  {
+    const auto* vector = reinterpret_cast<const __m256i*>(indices);
+    return _mm256_i32gather_ps(base, _mm256_loadu_si256(vector), sizeof(float));
+  }
+  static Float
+  div(Float a, Float b)
+  {
+    return _mm256_div_ps(a, b);
+  }
+  static Float
+  sqrt(Float a)
+  {
+    return _mm256_sqrt_ps(a);
+  }
+  static Float
+  abs(Float a)
+  {
+    return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a);
+  }
+  static Float
+  select(Mask mask, Float a, Float b)
+  {
+    return _mm256_blendv_ps(b, a, mask);
+  }
+  static Mask
+  both(Mask a, Mask b)
+  {
+    return _mm256_and_ps(a, b);
+  }
+  static Mask
+  firstLanes(std::size_t n)
+  {
+    const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    return _mm256_castsi256_ps(
+        _mm256_cmpgt_epi32(_mm256_set1_epi32(static_cast<int>(n)), lanes));
+  }
+  static std::size_t
+  compress(
+      Mask mask, std::uint32_t first, Float values, std::uint32_t* indices, float* out)
+  {
+    const std::uint32_t lanes = bits(mask);
+    const __m256i order = _mm256_cvtepu8_epi32(
+        _mm_cvtsi64_si128(static_cast<long long>(SET_BITS.of[lanes])));
+    const __m256i numbers =
+        _mm256_add_epi32(order, _mm256_set1_epi32(static_cast<int>(first)));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(indices), numbers);
+    _mm256_storeu_ps(out, _mm256_permutevar8x32_ps(values, order));
+    return static_cast<std::size_t>(_mm_popcnt_u32(lanes));
+  }
+  static void
+  storeTruncated(std::int32_t* out, Float a)
+  {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_cvttps_epi32(a));
+  }
   static void
   store(Mask mask, std::uint64_t* words, std::size_t group)
   {
@@ -108,7 +191,11 @@ const Kernels AVX2_KERNELS = {"avx2",
                               &countBitsIn,
                               &intersectRows,
                               &residualTestSimd<Avx2>,
-                              &featureCandidatesSimd<Avx2>};
+                              &featureCandidatesSimd<Avx2>,
+                              &collectNeighborsSimd<Avx2>,
+                              &momentSumsSimd<Avx2>,
+                              &pairHistogramSimd<Avx2>,
+                              &weightedRowSumSimd<Avx2>};
 
 } // namespace cpu
 } // namespace pcl_flashreg

@@ -4,6 +4,7 @@
 // AVX-512 F, BW, DQ, VL and VPOPCNTDQ (Ice Lake and Zen 4 on).
 
 #include "cpu/kernels/simd_kernels.h"
+#include "cpu/kernels/surface_kernels.h"
 
 #include <immintrin.h>
 
@@ -67,6 +68,69 @@ struct Avx512 {
   bits(Mask mask)
   {
     return mask;
+  }
+  static Float
+  loadUnaligned(const float* p)
+  {
+    return _mm512_loadu_ps(p);
+  }
+  static void
+  storeUnaligned(float* p, Float a)
+  {
+    _mm512_storeu_ps(p, a);
+  }
+  static Float
+  gather(const float* base, const std::uint32_t* indices)
+  {
+    return _mm512_i32gather_ps(_mm512_loadu_si512(indices), base, sizeof(float));
+  }
+  static Float
+  div(Float a, Float b)
+  {
+    return _mm512_div_ps(a, b);
+  }
+  static Float
+  sqrt(Float a)
+  {
+    return _mm512_sqrt_ps(a);
+  }
+  static Float
+  abs(Float a)
+  {
+    return _mm512_abs_ps(a);
+  }
+  static Float
+  select(Mask mask, Float a, Float b)
+  {
+    return _mm512_mask_blend_ps(mask, b, a);
+  }
+  static Mask
+  both(Mask a, Mask b)
+  {
+    return static_cast<Mask>(a & b);
+  }
+  static Mask
+  firstLanes(std::size_t n)
+  {
+    return static_cast<Mask>((1u << n) - 1);
+  }
+  static std::size_t
+  compress(
+      Mask mask, std::uint32_t first, Float values, std::uint32_t* indices, float* out)
+  {
+    const __m512i lanes =
+        _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i numbers =
+        _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<int>(first)));
+    // Into a register and from there: compressing to memory is slow on some processors.
+    _mm512_storeu_si512(indices, _mm512_maskz_compress_epi32(mask, numbers));
+    _mm512_storeu_ps(out, _mm512_maskz_compress_ps(mask, values));
+    return static_cast<std::size_t>(_mm_popcnt_u32(mask));
+  }
+  static void
+  storeTruncated(std::int32_t* out, Float a)
+  {
+    _mm512_storeu_si512(out, _mm512_cvttps_epi32(a));
   }
   static void
   store(Mask mask, std::uint64_t* words, std::size_t group)
@@ -136,7 +200,11 @@ const Kernels AVX512_KERNELS = {"avx512",
                                 &countBitsIn,
                                 &intersectRows,
                                 &residualTestSimd<Avx512>,
-                                &featureCandidatesSimd<Avx512>};
+                                &featureCandidatesSimd<Avx512>,
+                                &collectNeighborsSimd<Avx512>,
+                                &momentSumsSimd<Avx512>,
+                                &pairHistogramSimd<Avx512>,
+                                &weightedRowSumSimd<Avx512>};
 
 } // namespace cpu
 } // namespace pcl_flashreg

@@ -57,6 +57,30 @@ constexpr std::size_t FEATURE_BLOCK = 32;
 /** \brief Number of queries that featureCandidates() takes at a time. */
 constexpr std::size_t QUERY_BLOCK = 8;
 
+/** \brief Oriented points, sorted by cell of the neighbour grid, as separate arrays; NEIGHBOR_BLOCK
+ * entries longer than there are points. A point with a coordinate that is not a number is
+ * nobody's neighbour. */
+struct SurfaceArrays {
+  const float *x, *y, *z;
+  /** \brief Unit normals; null until they are known. */
+  const float *nx, *ny, *nz;
+};
+
+/** \brief Consecutive points of SurfaceArrays: [begin, end). */
+struct PointRun {
+  std::uint32_t begin, end;
+};
+
+/** \brief Sums over neighbours run in this many lanes, whatever the registers' width, so that
+ * every instruction set adds up in the same order. */
+constexpr std::size_t NEIGHBOR_BLOCK = 16;
+/** \brief Bins of one angle in a point feature histogram. */
+constexpr std::size_t HISTOGRAM_BINS = 11;
+/** \brief Bins of a whole one: three angles. */
+constexpr std::size_t FPFH_BINS = 3 * HISTOGRAM_BINS;
+/** \brief Floats from one histogram row to the next: whole cache lines; zeros behind the bins. */
+constexpr std::size_t HISTOGRAM_STRIDE = 48;
+
 /** \brief The hot loops of one instruction set. */
 struct Kernels {
   /** \brief As it is spelled in the environment variable and the backend's name. */
@@ -117,6 +141,43 @@ struct Kernels {
                             const float* queries,
                             const float* thresholds,
                             std::uint32_t* candidates);
+
+  /** \brief The points of the runs whose squared distance from the query,
+   * (dx^2 + dy^2) + dz^2 rounded once an operation, is below squared_radius; in order.
+   * \param[out] indices, squared_distances room for NEIGHBOR_BLOCK more than are found
+   * \return how many there are
+   */
+  std::size_t (*collectNeighbors)(const SurfaceArrays& points,
+                                  const PointRun* runs,
+                                  std::size_t run_count,
+                                  const float query[3],
+                                  float squared_radius,
+                                  std::uint32_t* indices,
+                                  float* squared_distances);
+
+  /** \brief Sums over neighbours of d = point - query: x, y, z, xx, xy, xz, yy, yz, zz.
+   * `count` is a multiple of NEIGHBOR_BLOCK; the query itself adds nothing. */
+  void (*momentSums)(const SurfaceArrays& points,
+                     const float query[3],
+                     const std::uint32_t* indices,
+                     std::size_t count,
+                     float sums[9]);
+
+  /** \brief Adds the pairs of point `query` and each neighbour to three histograms of
+   * HISTOGRAM_BINS (see math/pair_features.h). `count` is a multiple of NEIGHBOR_BLOCK;
+   * neighbours that make no pair with the query, as the query itself, are left out. */
+  void (*pairHistogram)(const SurfaceArrays& points,
+                        std::uint32_t query,
+                        const std::uint32_t* indices,
+                        std::size_t count,
+                        std::uint32_t* histogram);
+
+  /** \brief Sum of histogram rows (HISTOGRAM_STRIDE apart), each times its weight, in order. */
+  void (*weightedRowSum)(const float* rows,
+                         const std::uint32_t* indices,
+                         const float* weights,
+                         std::size_t count,
+                         float* sum);
 };
 
 /** \brief The variants that this processor runs, fastest first; never empty.

@@ -4,6 +4,7 @@
 // NEON, which every AArch64 processor has.
 
 #include "cpu/kernels/simd_kernels.h"
+#include "cpu/kernels/surface_kernels.h"
 
 #include <arm_neon.h>
 
@@ -69,6 +70,74 @@ struct Neon {
     const uint32x4_t lane_bits = {1, 2, 4, 8};
     return vaddvq_u32(vandq_u32(mask, lane_bits));
   }
+  static Float
+  loadUnaligned(const float* p)
+  {
+    return vld1q_f32(p);
+  }
+  static void
+  storeUnaligned(float* p, Float a)
+  {
+    vst1q_f32(p, a);
+  }
+  static Float
+  gather(const float* base, const std::uint32_t* indices)
+  {
+    const Float values = {
+        base[indices[0]], base[indices[1]], base[indices[2]], base[indices[3]]};
+    return values;
+  }
+  static Float
+  div(Float a, Float b)
+  {
+    return vdivq_f32(a, b);
+  }
+  static Float
+  sqrt(Float a)
+  {
+    return vsqrtq_f32(a);
+  }
+  static Float
+  abs(Float a)
+  {
+    return vabsq_f32(a);
+  }
+  static Float
+  select(Mask mask, Float a, Float b)
+  {
+    return vbslq_f32(mask, a, b);
+  }
+  static Mask
+  both(Mask a, Mask b)
+  {
+    return vandq_u32(a, b);
+  }
+  static Mask
+  firstLanes(std::size_t n)
+  {
+    const uint32x4_t lanes = {0, 1, 2, 3};
+    return vcltq_u32(lanes, vdupq_n_u32(static_cast<std::uint32_t>(n)));
+  }
+  static std::size_t
+  compress(
+      Mask mask, std::uint32_t first, Float values, std::uint32_t* indices, float* out)
+  {
+    float all[WIDTH];
+    vst1q_f32(all, values);
+    const std::uint32_t lanes = bits(mask);
+    std::size_t count = 0;
+    for (std::uint32_t lane = 0; lane < WIDTH; ++lane) {
+      indices[count] = first + lane;
+      out[count] = all[lane];
+      count += lanes >> lane & 1;
+    }
+    return count;
+  }
+  static void
+  storeTruncated(std::int32_t* out, Float a)
+  {
+    vst1q_s32(out, vcvtq_s32_f32(a));
+  }
   /** \brief Groups come in ascending order, so the first clears the word. */
   static void
   store(Mask mask, std::uint64_t* words, std::size_t group)
@@ -109,7 +178,11 @@ const Kernels NEON_KERNELS = {"neon",
                               &countBitsIn,
                               &intersectRows,
                               &residualTestSimd<Neon>,
-                              &featureCandidatesSimd<Neon>};
+                              &featureCandidatesSimd<Neon>,
+                              &collectNeighborsSimd<Neon>,
+                              &momentSumsSimd<Neon>,
+                              &pairHistogramSimd<Neon>,
+                              &weightedRowSumSimd<Neon>};
 
 } // namespace cpu
 } // namespace pcl_flashreg

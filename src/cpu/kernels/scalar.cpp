@@ -5,12 +5,114 @@
 // what the other variants are compared with.
 
 #include "cpu/kernels/simd_kernels.h"
+#include "cpu/kernels/surface_kernels.h"
 #include "math/compatibility.h"
 #include "math/residual.h"
 
 namespace pcl_flashreg {
 namespace cpu {
 namespace {
+
+/** \brief One float at a time. */
+struct OneLane {
+  using Float = float;
+  using Mask = bool;
+  static constexpr std::size_t WIDTH = 1;
+
+  static Float
+  load(const float* p)
+  {
+    return *p;
+  }
+  static Float
+  loadUnaligned(const float* p)
+  {
+    return *p;
+  }
+  static void
+  storeUnaligned(float* p, Float a)
+  {
+    *p = a;
+  }
+  static Float
+  gather(const float* base, const std::uint32_t* indices)
+  {
+    return base[*indices];
+  }
+  static Float
+  broadcast(float x)
+  {
+    return x;
+  }
+  static Float
+  add(Float a, Float b)
+  {
+    return a + b;
+  }
+  static Float
+  sub(Float a, Float b)
+  {
+    return a - b;
+  }
+  static Float
+  mul(Float a, Float b)
+  {
+    return a * b;
+  }
+  static Float
+  div(Float a, Float b)
+  {
+    return a / b;
+  }
+  static Float
+  sqrt(Float a)
+  {
+    return __builtin_sqrtf(a);
+  }
+  static Float
+  abs(Float a)
+  {
+    return __builtin_fabsf(a);
+  }
+  static Mask
+  less(Float a, Float b)
+  {
+    return a < b;
+  }
+  static Mask
+  both(Mask a, Mask b)
+  {
+    return a && b;
+  }
+  static std::uint32_t
+  bits(Mask mask)
+  {
+    return mask ? 1 : 0;
+  }
+  static Mask
+  firstLanes(std::size_t n)
+  {
+    return n > 0;
+  }
+  static Float
+  select(Mask mask, Float a, Float b)
+  {
+    return mask ? a : b;
+  }
+  static std::size_t
+  compress(
+      Mask mask, std::uint32_t first, Float value, std::uint32_t* index, float* out)
+  {
+    *index = first;
+    *out = value;
+    return mask ? 1 : 0;
+  }
+  static void
+  storeTruncated(std::int32_t* out, Float a)
+  {
+    *out = static_cast<std::int32_t>(a);
+  }
+};
 
 void
 edgeTest(const EdgeTestInput& in,
@@ -117,7 +219,11 @@ const Kernels SCALAR_KERNELS = {"scalar",
                                 &countBitsIn,
                                 &intersectRows,
                                 &residualTest,
-                                &featureCandidates};
+                                &featureCandidates,
+                                &collectNeighborsSimd<OneLane>,
+                                &momentSumsSimd<OneLane>,
+                                &pairHistogramSimd<OneLane>,
+                                &weightedRowSumSimd<OneLane>};
 
 } // namespace cpu
 } // namespace pcl_flashreg

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+// Keypoints, normals and FPFH by PCL's own classes: the alternative to FeatureExtractor,
+// and what that is compared with.
+
+#pragma once
+
+#include <pcl_flashreg/fpfh_features.h>
+#include <pcl_flashreg/impl/stopwatch.hpp>
+
+#include <pcl/common/point_tests.h>
+#include <pcl/features/fpfh_omp.h>
+#include <pcl/features/normal_3d_omp.h>
+#include <pcl/filters/voxel_grid.h>
+#include <pcl/search/kdtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace pcl_flashreg {
+namespace detail {
+
+using PointsXYZ = pcl::PointCloud<pcl::PointXYZ>;
+using Normals = pcl::PointCloud<pcl::Normal>;
+using Fpfh33 = pcl::PointCloud<pcl::FPFHSignature33>;
+
+/** \brief pcl::VoxelGrid numbers voxels with 32 bits, and returns the cloud unfiltered,
+ * with a warning only, where these don't suffice; so that is checked beforehand.
+ * \throws std::invalid_argument */
+inline void
+checkVoxelGrid(const PointsXYZ& points, double resolution)
+{
+  std::ostringstream error;
+  if (!(resolution > 0) || !std::isfinite(resolution)) {
+    error << "the resolution is " << resolution << ", it must be > 0 and finite";
+    throw std::invalid_argument(error.str());
+  }
+  double voxels = 1;
+  bool fits = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto bounds = std::minmax_element(
+        points.begin(), points.end(), [axis](const auto& a, const auto& b) {
+          return a.data[axis] < b.data[axis];
+        });
+    const double low = std::floor(bounds.first->data[axis] / resolution);
+    const double high = std::floor(bounds.second->data[axis] / resolution);
+    voxels *= high - low + 1;
+    fits &= std::max(std::abs(low), std::abs(high)) < std::numeric_limits<int>::max();
+  }
+  // One voxel an axis to spare: PCL divides in single precision.
+  if (fits && voxels < 0.5 * std::numeric_limits<int>::max())
+    return;
+  error << "the resolution " << resolution
+        << " is too small for the extent of the cloud: "
+        << "more voxels than 32 bits can number";
+  throw std::invalid_argument(error.str());
+}
+
+/** \brief One point a voxel, the centroid of those in it. */
+inline PointsXYZ::Ptr
+downsample(const PointsXYZ::ConstPtr& points, double resolution)
+{
+  PointsXYZ::Ptr keypoints(new PointsXYZ);
+  pcl::VoxelGrid<pcl::PointXYZ> grid;
+  const auto leaf = static_cast<float>(resolution);
+  grid.setLeafSize(leaf, leaf, leaf);
+  grid.setInputCloud(points);
+  grid.filter(*keypoints);
+  return keypoints;
+}
+
+inline Normals::Ptr
+estimateNormals(const PointsXYZ::ConstPtr& points, double radius, unsigned num_threads)
+{
+  Normals::Ptr normals(new Normals);
+  pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation(num_threads);
+  estimation.setSearchMethod(
+      pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
+  estimation.setRadiusSearch(radius);
+  estimation.setInputCloud(points);
+  const auto& origin = points->sensor_origin_;
+  estimation.setViewPoint(origin.x(), origin.y(), origin.z());
+  estimation.compute(*normals);
+  return normals;
+}
+
+inline Fpfh33::Ptr
+estimateFpfh(const PointsXYZ::ConstPtr& points,
+             const Normals::ConstPtr& normals,
+             double radius,
+             unsigned num_threads)
+{
+  Fpfh33::Ptr features(new Fpfh33);
+  pcl::FPFHEstimationOMP<pcl::PointXYZ, pcl::Normal, pcl::FPFHSignature33> estimation(
+      num_threads);
+  estimation.setSearchMethod(
+      pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
+  estimation.setRadiusSearch(radius);
+  estimation.setInputCloud(points);
+  estimation.setInputNormals(normals);
+  estimation.compute(*features);
+  return features;
+}
+
+/** \brief Keeps the elements for whose index the test is true. */
+template <typename ElementT, typename Test>
+void
+keepIf(pcl::PointCloud<ElementT>& elements, Test test)
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (test(i))
+      elements[kept++] = elements[i];
+  elements.resize(kept);
+}
+
+inline bool
+isFiniteFpfh(const pcl::FPFHSignature33& feature)
+{
+  return std::all_of(std::begin(feature.histogram),
+                     std::end(feature.histogram),
+                     [](float value) { return std::isfinite(value); });
+}
+
+/** \brief Keypoints, normals and descriptors by PCL's own classes.
+ * \param[in] points finite
+ * \throws std::invalid_argument see computeFpfh() */
+inline FpfhCloud
+computeFpfhWithPcl(const PointsXYZ::Ptr& points,
+                   double resolution,
+                   unsigned num_threads,
+                   FpfhTimings& timings)
+{
+  FpfhCloud result;
+  result.points = points;
+  result.normals.reset(new Normals);
+  result.features.reset(new Fpfh33);
+  if (points->empty())
+    return result;
+  checkVoxelGrid(*points, resolution);
+  const auto keep = [&result](const std::vector<bool>& wanted) {
+    const auto is_wanted = [&wanted](std::size_t i) { return wanted[i]; };
+    keepIf(*result.points, is_wanted);
+    keepIf(*result.normals, is_wanted);
+    keepIf(*result.features, is_wanted);
+  };
+
+  const Stopwatch voxel_grid;
+  result.points = downsample(points, resolution);
+  timings.voxel_grid = voxel_grid.milliseconds();
+
+  const Stopwatch normal_estimation;
+  result.normals = estimateNormals(result.points, 2 * resolution, num_threads);
+  std::vector<bool> finite;
+  for (const auto& normal : *result.normals)
+    finite.push_back(pcl::isNormalFinite(normal));
+  keep(finite);
+  timings.normals = normal_estimation.milliseconds();
+  if (result.points->empty())
+    return result;
+
+  const Stopwatch description;
+  result.features =
+      estimateFpfh(result.points, result.normals, 5 * resolution, num_threads);
+  finite.clear();
+  for (const auto& feature : *result.features)
+    finite.push_back(isFiniteFpfh(feature));
+  keep(finite);
+  timings.features = description.milliseconds();
+  return result;
+}
+
+} // namespace detail
+} // namespace pcl_flashreg
