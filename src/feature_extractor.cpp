@@ -115,8 +115,7 @@ FeatureExtractor::describe(const PointView& points,
   check(points);
   parameters.validate();
   FeatureTimings spent;
-  DescribedCloud result =
-      runFeaturePipeline(impl_->stages, points, parameters, spent);
+  DescribedCloud result = runFeaturePipeline(impl_->stages, points, parameters, spent);
   if (timings)
     *timings = spent;
   return result;

@@ -24,8 +24,7 @@ runFeaturePipeline(Stages& stages,
     milliseconds = watch.milliseconds();
   };
   timed(timings.voxel_grid, [&] { stages.voxelGrid(points, parameters.voxel_size); });
-  timed(timings.neighbor_grid,
-        [&] { stages.neighborGrid(parameters.feature_radius); });
+  timed(timings.neighbor_grid, [&] { stages.neighborGrid(parameters.feature_radius); });
   timed(timings.normals,
         [&] { stages.normals(parameters.normal_radius, parameters.viewpoint); });
   timed(timings.point_histograms,

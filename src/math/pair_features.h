@@ -47,6 +47,25 @@ isLargerAngle(float a, float b)
   return fabsf(a - b) < NEARLY_EQUAL_COSINES ? acosf(a) > acosf(b) : a < b;
 }
 
+/** \brief Sines of theta smaller than this are rounding errors. */
+constexpr float NEARLY_HALF_TURN = 1e-6f;
+
+/** \brief Whether theta is half a turn, pi or -pi by the sign of a rounding error. */
+PCL_FLASHREG_HD inline bool
+isHalfTurn(float turn_y, float cosine)
+{
+  return fabsf(turn_y) < NEARLY_HALF_TURN && cosine < 0;
+}
+
+/** \brief w . t, rounded as PCL does, which settles the sign of a half turn; v is d x u. */
+PCL_FLASHREG_HD inline float
+halfTurn(const float v[3], float v_length, const float u[3], const float t[3])
+{
+  const float x = v[0] / v_length, y = v[1] / v_length, z = v[2] / v_length;
+  return pairDot(
+      u[1] * z - u[2] * y, u[2] * x - u[0] * z, u[0] * y - u[1] * x, t[0], t[1], t[2]);
+}
+
 /** \brief Pair features of Rusu et al., "Fast Point Feature Histograms (FPFH) for 3D
  * Registration" (ICRA 2009), Eq. (1), in the order and binning of PCL's FPFHEstimation:
  * theta = atan2(w . n_t, u . n_t), alpha = v . n_t, phi = u . d / |d|, where u is the normal
@@ -71,10 +90,8 @@ pairBins(const OrientedPoint& p, const OrientedPoint& q, PairBins& bins)
   const float cosine = pairDot(p.nx, p.ny, p.nz, q.nx, q.ny, q.nz);
   // The frame's origin is the point whose normal is closer to the line.
   const bool swap = isLargerAngle(fabsf(along_p), fabsf(along_q));
-  const float ux = swap ? q.nx : p.nx, uy = swap ? q.ny : p.ny,
-              uz = swap ? q.nz : p.nz;
-  const float tx = swap ? p.nx : q.nx, ty = swap ? p.ny : q.ny,
-              tz = swap ? p.nz : q.nz;
+  const float ux = swap ? q.nx : p.nx, uy = swap ? q.ny : p.ny, uz = swap ? q.nz : p.nz;
+  const float tx = swap ? p.nx : q.nx, ty = swap ? p.ny : q.ny, tz = swap ? p.nz : q.nz;
   if (swap) {
     dx = -dx;
     dy = -dy;
@@ -82,17 +99,23 @@ pairBins(const OrientedPoint& p, const OrientedPoint& q, PairBins& bins)
   }
   const float phi = swap ? -along_q : along_p;
   const float along_t = swap ? -along_p : along_q;
-  // v = d x u is left at its length |d| |v|, and so is w: |d| |v| w . n_t =
+  // v = d x u is left at its length, and so is w: |d x u| w . n_t =
   // |d| (d . n_t - (d . u)(u . n_t)), with the inner products of d those of its direction.
   const float vx = dy * uz - dz * uy;
   const float vy = dz * ux - dx * uz;
   const float vz = dx * uy - dy * ux;
   const float v_length = sqrtf(pairDot(vx, vy, vz, vx, vy, vz));
-  if (!(v_length > 0))
-    return false;
-  const float turn_y = (along_t - phi * cosine) * length;
+  float turn_y = along_t - phi * cosine;
+  if (isHalfTurn(turn_y, cosine)) {
+    const float v[3] = {vx, vy, vz}, u[3] = {ux, uy, uz}, t[3] = {tx, ty, tz};
+    turn_y = halfTurn(v, v_length, u, t);
+  }
+  turn_y *= length;
   const float turn_x = cosine * v_length;
   const float alpha = pairDot(vx, vy, vz, tx, ty, tz) / v_length;
+  // A cosine, unless it is not a number.
+  if (!(v_length > 0) || !(alpha > -2))
+    return false;
 
   const float cosines[5] = {PCL_FLASHREG_SECTOR_COSINES};
   const float sines[5] = {PCL_FLASHREG_SECTOR_SINES};

@@ -56,8 +56,7 @@ FeatureStages::normals(double radius, const float viewpoint[3])
                     static_cast<float>(normal.x),
                     static_cast<float>(normal.y),
                     static_cast<float>(normal.z));
-    curvatures_[i] =
-        static_cast<float>(smallest / (spread.xx + spread.yy + spread.zz));
+    curvatures_[i] = static_cast<float>(smallest / (spread.xx + spread.yy + spread.zz));
     has_normal[i] = 1;
   });
   for (std::size_t i = 0; i < grid_.size(); ++i)

@@ -77,8 +77,7 @@ VoxelGrid::run(const PointView& points,
 {
   const std::size_t count = countOf(points);
   const auto point = [&points](std::size_t i) { return pointOf(points, i); };
-  const CellNumbering<VoxelFloor> numbering(
-      {1.0f / voxel_size}, bounds, count, point);
+  const CellNumbering<VoxelFloor> numbering({1.0f / voxel_size}, bounds, count, point);
 
   const std::size_t piece_count = (count + PIECE - 1) / PIECE;
   pieces_.resize(std::min(pool.size(), piece_count));

@@ -100,8 +100,7 @@ template <typename V>
 typename V::Mask
 largerAngles(typename V::Float a, typename V::Float b)
 {
-  const auto close =
-      V::less(V::abs(V::sub(a, b)), V::broadcast(NEARLY_EQUAL_COSINES));
+  const auto close = V::less(V::abs(V::sub(a, b)), V::broadcast(NEARLY_EQUAL_COSINES));
   if (V::bits(close) == 0)
     return V::less(a, b);
   float first[V::WIDTH], second[V::WIDTH], larger[V::WIDTH];
@@ -110,6 +109,41 @@ largerAngles(typename V::Float a, typename V::Float b)
   for (std::size_t lane = 0; lane < V::WIDTH; ++lane)
     larger[lane] = isLargerAngle(first[lane], second[lane]) ? 1.0f : 0.0f;
   return V::less(V::broadcast(0.0f), V::loadUnaligned(larger));
+}
+
+/** \brief Puts halfTurn() where isHalfTurn() says so. */
+template <typename V>
+typename V::Float
+settleHalfTurns(typename V::Float turn_y,
+                typename V::Float cosine,
+                const typename V::Float v[3],
+                typename V::Float v_length,
+                const typename V::Float u[3],
+                const typename V::Float t[3])
+{
+  const auto tiny = V::both(V::less(V::abs(turn_y), V::broadcast(NEARLY_HALF_TURN)),
+                            V::less(cosine, V::broadcast(0.0f)));
+  const std::uint32_t lanes = V::bits(tiny);
+  if (lanes == 0)
+    return turn_y;
+  float turns[V::WIDTH], lengths[V::WIDTH], all[3][3][V::WIDTH];
+  V::storeUnaligned(turns, turn_y);
+  V::storeUnaligned(lengths, v_length);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    V::storeUnaligned(all[0][axis], v[axis]);
+    V::storeUnaligned(all[1][axis], u[axis]);
+    V::storeUnaligned(all[2][axis], t[axis]);
+  }
+  for (std::size_t lane = 0; lane < V::WIDTH; ++lane) {
+    if (!(lanes >> lane & 1))
+      continue;
+    float of_lane[3][3];
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        of_lane[k][axis] = all[k][axis][lane];
+    turns[lane] = halfTurn(of_lane[0], lengths[lane], of_lane[1], of_lane[2]);
+  }
+  return V::loadUnaligned(turns);
 }
 
 /** \brief pairBins() for V::WIDTH pairs; lanes that make no pair get bin FPFH_BINS in all
@@ -156,10 +190,14 @@ pairBinsSimd(const SurfaceArrays& points,
   const Float vy = V::sub(V::mul(dz, ux), V::mul(dx, uz));
   const Float vz = V::sub(V::mul(dx, uy), V::mul(dy, ux));
   const Float v_length = V::sqrt(dot(vx, vy, vz, vx, vy, vz));
-  const auto valid = V::both(V::less(zero, length), V::less(zero, v_length));
-  const Float turn_y = V::mul(V::sub(along_t, V::mul(phi, cosine)), length);
+  const Float v[3] = {vx, vy, vz}, u[3] = {ux, uy, uz}, t[3] = {tx, ty, tz};
+  const Float turn = settleHalfTurns<V>(
+      V::sub(along_t, V::mul(phi, cosine)), cosine, v, v_length, u, t);
+  const Float turn_y = V::mul(turn, length);
   const Float turn_x = V::mul(cosine, v_length);
   const Float alpha = V::div(dot(vx, vy, vz, tx, ty, tz), v_length);
+  const auto valid = V::both(V::both(V::less(zero, length), V::less(zero, v_length)),
+                             V::less(V::broadcast(-2.0f), alpha));
 
   constexpr float COSINES[5] = {PCL_FLASHREG_SECTOR_COSINES};
   constexpr float SINES[5] = {PCL_FLASHREG_SECTOR_SINES};
@@ -171,8 +209,8 @@ pairBinsSimd(const SurfaceArrays& points,
                               V::mul(turn_x, V::broadcast(SINES[k])));
     sectors = V::add(sectors, V::select(V::less(zero, side), one, zero));
   }
-  const Float turn_bin = V::select(
-      V::less(turn_y, zero), V::sub(five, sectors), V::add(five, sectors));
+  const Float turn_bin =
+      V::select(V::less(turn_y, zero), V::sub(five, sectors), V::add(five, sectors));
   const Float half_bins = V::broadcast(5.5f), last = V::broadcast(10.0f);
   const auto binOf = [&](Float value) {
     const Float bin = V::add(V::mul(value, half_bins), half_bins);
