@@ -14,8 +14,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace pcl_flashreg {
 namespace {
@@ -26,17 +28,80 @@ using cpu::QUERY_BLOCK;
 /** \brief Blocks of queries in a task. */
 constexpr std::size_t BLOCKS_A_TASK = 8;
 
+/** \brief What could be a match of something, and how far it is. */
 struct Candidate {
   double squared_distance;
-  std::int32_t target;
+  std::int32_t index;
 
   bool
   operator<(const Candidate& other) const
   {
     return squared_distance != other.squared_distance
                ? squared_distance < other.squared_distance
-               : target < other.target;
+               : index < other.index;
   }
+};
+
+/** \brief The k best candidates of each of n descriptors, best first. */
+class NearestLists {
+public:
+  NearestLists(std::size_t n, std::size_t k) : k_(k), lists_(n * k), counts_(n, 0) {}
+
+  /** \brief Puts a candidate into list i, if it is among the best and not there yet.
+   * \return whether the list has changed */
+  bool
+  offer(std::size_t i, const Candidate& candidate)
+  {
+    Candidate* first = lists_.data() + i * k_;
+    Candidate* last = first + counts_[i];
+    if (counts_[i] == k_ && !(candidate < last[-1]))
+      return false;
+    Candidate* at = std::lower_bound(first, last, candidate);
+    if (at != last && at->index == candidate.index)
+      return false;
+    if (counts_[i] < k_)
+      ++last, ++counts_[i];
+    std::move_backward(at, last - 1, last);
+    *at = candidate;
+    return true;
+  }
+
+  /** \brief What a candidate has to beat: infinity while the list is not full. */
+  double
+  worst(std::size_t i) const
+  {
+    return counts_[i] < k_ ? std::numeric_limits<double>::infinity()
+                           : lists_[i * k_ + k_ - 1].squared_distance;
+  }
+
+  const Candidate*
+  begin(std::size_t i) const
+  {
+    return lists_.data() + i * k_;
+  }
+
+  const Candidate*
+  end(std::size_t i) const
+  {
+    return begin(i) + counts_[i];
+  }
+
+  std::size_t
+  size() const
+  {
+    return counts_.size();
+  }
+
+  void
+  clear(std::size_t i)
+  {
+    counts_[i] = 0;
+  }
+
+private:
+  std::size_t k_;
+  std::vector<Candidate> lists_;
+  std::vector<std::size_t> counts_;
 };
 
 const float*
@@ -63,12 +128,20 @@ squaredNorm(const float* values, std::size_t n)
 double
 squaredDistance(const float* a, const float* b, std::size_t n)
 {
-  double sum = 0;
-  for (std::size_t d = 0; d < n; ++d) {
+  // Four sums side by side, so that an addition need not wait for the one before.
+  constexpr std::size_t LANES = 4;
+  double sums[LANES] = {};
+  const auto add = [&](std::size_t lane, std::size_t d) {
     const double difference = static_cast<double>(a[d]) - b[d];
-    sum += difference * difference;
-  }
-  return sum;
+    sums[lane] += difference * difference;
+  };
+  std::size_t d = 0;
+  for (; d + LANES <= n; d += LANES)
+    for (std::size_t lane = 0; lane < LANES; ++lane)
+      add(lane, d + lane);
+  for (; d < n; ++d)
+    add(d % LANES, d);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 void
@@ -115,50 +188,88 @@ struct TargetBlocks {
   }
 };
 
-/** \brief Finds the matches of up to QUERY_BLOCK queries. */
+/** \brief Rounding may make a squared distance of the filter, |q|^2 + |t|^2 - 2 q.t, this
+ * much larger than it is: a sum of n products errs by at most n u |q| |t|, in any order of
+ * summation; the bound covers the other roundings, too. */
+double
+filterError(double query_norm, double target_norm, std::size_t dimension)
+{
+  const double reach = std::sqrt(query_norm) + std::sqrt(target_norm);
+  return (static_cast<double>(dimension) + 8) / (1 << 23) * reach * reach;
+}
+
+/** \brief Finds the matches of QUERY_BLOCK queries at a time, and with `both_ways`, of the
+ * targets among them. One object a thread. */
 class BlockSearch {
 public:
   BlockSearch(const FeatureView& queries,
               const FeatureView& targets,
               const TargetBlocks& blocks,
+              double largest_query_norm,
               std::size_t k,
+              bool both_ways,
               const cpu::Kernels& kernels)
       : queries_(queries),
         targets_(targets),
         blocks_(blocks),
-        k_(k),
         kernels_(kernels),
-        packed_(QUERY_BLOCK * queries.dimension)
+        both_ways_(both_ways),
+        limit_error_(
+            filterError(largest_query_norm, blocks.largest_norm, queries.dimension)),
+        packed_(QUERY_BLOCK * queries.dimension),
+        forward_(QUERY_BLOCK, k),
+        backward_(both_ways ? targets.size : 0, k)
   {
+    limits_.resize(blocks.count * FEATURE_BLOCK);
+    const float none = std::numeric_limits<float>::infinity();
+    std::fill(limits_.begin(), limits_.end(), -none);
+    for (std::size_t t = 0; both_ways && t < targets.size; ++t)
+      if (blocks.norms[t] < none)
+        limits_[t] = std::numeric_limits<float>::max();
   }
 
-  /** \param[out] best the matches of query first + q in best[q], best first */
-  void
-  run(std::size_t first, std::vector<Candidate> best[QUERY_BLOCK])
+  /** \brief Searches for the queries from `first` on; list q of the result is that of
+   * query first + q. */
+  const NearestLists&
+  run(std::size_t first)
   {
-    begin(first, best);
-    const cpu::FeatureBlock input{
-        blocks_.values.data(), blocks_.norms.data(), targets_.dimension};
+    begin(first);
+    const cpu::FeatureBlock input{blocks_.values.data(),
+                                  blocks_.norms.data(),
+                                  limits_.data(),
+                                  targets_.dimension};
+    const cpu::QueryRows rows{packed_.data(), float_norms_, thresholds_};
     for (std::size_t block = 0; block < blocks_.count; ++block) {
       std::uint32_t candidates[QUERY_BLOCK];
-      kernels_.featureCandidates(input, block, packed_.data(), thresholds_, candidates);
+      kernels_.featureCandidates(input, block, rows, candidates);
       for (std::size_t q = 0; q < QUERY_BLOCK; ++q)
-        for (std::uint32_t bits = candidates[q]; bits != 0; bits &= bits - 1) {
-          const std::size_t target = block * FEATURE_BLOCK + __builtin_ctz(bits);
-          offer(first + q, target, q, best[q]);
-        }
+        for (std::uint32_t bits = candidates[q]; bits != 0; bits &= bits - 1)
+          offer(first, q, block * FEATURE_BLOCK + __builtin_ctz(bits), both_ways_);
     }
+    return forward_;
+  }
+
+  /** \brief The matches of the targets among the queries that were searched for. */
+  const NearestLists&
+  backward() const
+  {
+    return backward_;
   }
 
 private:
   void
-  begin(std::size_t first, std::vector<Candidate> best[QUERY_BLOCK])
+  begin(std::size_t first)
   {
     const std::size_t dimension = queries_.dimension;
     std::fill(packed_.begin(), packed_.end(), 0.0f);
+    seeds_.clear();
     for (std::size_t q = 0; q < QUERY_BLOCK; ++q) {
-      best[q].clear();
+      for (const Candidate* match = forward_.begin(q); match != forward_.end(q);
+           ++match)
+        seeds_.push_back(match->index);
+      forward_.clear(q);
       thresholds_[q] = -std::numeric_limits<float>::infinity();
+      float_norms_[q] = std::numeric_limits<float>::infinity();
       if (first + q >= queries_.size)
         continue;
       const float* query = descriptor(queries_, first + q);
@@ -166,59 +277,100 @@ private:
         continue;
       std::copy(query, query + dimension, packed_.begin() + q * dimension);
       norms_[q] = squaredNorm(query, dimension);
+      float_norms_[q] = static_cast<float>(norms_[q]);
       thresholds_[q] = std::numeric_limits<float>::max();
     }
+    std::sort(seeds_.begin(), seeds_.end());
+    seeds_.erase(std::unique(seeds_.begin(), seeds_.end()), seeds_.end());
+    // Neighbours in the list are mostly neighbours in space, with like descriptors: what
+    // matched the queries before is a good first guess, and spares many an offer.
+    for (std::size_t q = 0; q < QUERY_BLOCK; ++q)
+      if (thresholds_[q] > 0)
+        for (const std::int32_t seed : seeds_)
+          offer(first, q, static_cast<std::size_t>(seed), false);
   }
 
   void
-  offer(std::size_t query,
-        std::size_t target,
-        std::size_t q,
-        std::vector<Candidate>& best)
+  offer(std::size_t first, std::size_t q, std::size_t target, bool backward)
   {
-    const Candidate candidate{squaredDistance(descriptor(queries_, query),
-                                              descriptor(targets_, target),
-                                              queries_.dimension),
-                              static_cast<std::int32_t>(target)};
-    if (best.size() == k_) {
-      if (!(candidate < best.back()))
-        return;
-      best.pop_back();
-    }
-    best.insert(std::upper_bound(best.begin(), best.end(), candidate), candidate);
-    if (best.size() == k_)
-      thresholds_[q] = threshold(best.back().squared_distance, norms_[q]);
-  }
-
-  /** \brief The filter computes |t|^2 - 2 q.t, the squared distance less |q|^2. A sum of n
-   * products errs by at most n u |q| |t|; the bound covers that and the other roundings
-   * in any order of summation. */
-  float
-  threshold(double squared_distance, double query_norm) const
-  {
-    const double reach = std::sqrt(query_norm) + std::sqrt(blocks_.largest_norm);
-    const double error =
-        (static_cast<double>(queries_.dimension) + 8) / (1 << 23) * reach * reach;
-    return static_cast<float>(squared_distance - query_norm + error);
+    const std::size_t query = first + q;
+    const double distance = squaredDistance(
+        descriptor(queries_, query), descriptor(targets_, target), queries_.dimension);
+    if (forward_.offer(q, {distance, static_cast<std::int32_t>(target)}) &&
+        forward_.worst(q) < std::numeric_limits<double>::infinity())
+      thresholds_[q] = static_cast<float>(
+          forward_.worst(q) - norms_[q] +
+          filterError(norms_[q], blocks_.largest_norm, queries_.dimension));
+    if (backward &&
+        backward_.offer(target, {distance, static_cast<std::int32_t>(query)}) &&
+        backward_.worst(target) < std::numeric_limits<double>::infinity())
+      limits_[target] = static_cast<float>(backward_.worst(target) + limit_error_);
   }
 
   const FeatureView& queries_;
   const FeatureView& targets_;
   const TargetBlocks& blocks_;
-  const std::size_t k_;
   const cpu::Kernels& kernels_;
+  const bool both_ways_;
+  const double limit_error_;
   std::vector<float> packed_;
+  NearestLists forward_, backward_;
+  AlignedBuffer<float> limits_;
+  std::vector<std::int32_t> seeds_;
   double norms_[QUERY_BLOCK] = {};
+  float float_norms_[QUERY_BLOCK] = {};
   float thresholds_[QUERY_BLOCK] = {};
 };
 
-} // namespace
+void
+append(std::vector<FeatureMatch>& matches,
+       std::size_t query,
+       const Candidate* begin,
+       const Candidate* end)
+{
+  for (; begin != end; ++begin)
+    matches.push_back({static_cast<std::int32_t>(query),
+                       begin->index,
+                       static_cast<float>(begin->squared_distance)});
+}
 
+/** \brief What all threads found for the targets. The k best of all are among the k best of
+ * each, whoever searched for which queries. */
 std::vector<FeatureMatch>
-matchFeatures(const FeatureView& queries,
-              const FeatureView& targets,
-              std::size_t k,
-              unsigned num_threads)
+mergeBackward(const std::vector<std::optional<BlockSearch>>& searches,
+              std::size_t targets,
+              std::size_t k)
+{
+  NearestLists merged(targets, k);
+  for (const std::optional<BlockSearch>& search : searches)
+    for (std::size_t t = 0; search && t < targets; ++t)
+      for (const Candidate* match = search->backward().begin(t);
+           match != search->backward().end(t);
+           ++match)
+        merged.offer(t, *match);
+  std::vector<FeatureMatch> matches;
+  matches.reserve(targets * k);
+  for (std::size_t t = 0; t < targets; ++t)
+    append(matches, t, merged.begin(t), merged.end(t));
+  return matches;
+}
+
+double
+largestNorm(const FeatureView& view)
+{
+  double largest = 0;
+  for (std::size_t i = 0; i < view.size; ++i)
+    if (allFinite(descriptor(view, i), view.dimension))
+      largest = std::max(largest, squaredNorm(descriptor(view, i), view.dimension));
+  return largest;
+}
+
+MutualMatches
+search(const FeatureView& queries,
+       const FeatureView& targets,
+       std::size_t k,
+       unsigned num_threads,
+       bool both_ways)
 {
   check("queries", queries);
   check("targets", targets);
@@ -233,30 +385,75 @@ matchFeatures(const FeatureView& queries,
 
   const cpu::Kernels& kernels = cpu::selectKernels();
   const TargetBlocks blocks(targets);
+  const double largest_query_norm = both_ways ? largestNorm(queries) : 0;
+  const std::size_t forward_k = std::min(k, targets.size);
+  const std::size_t backward_k = std::min(k, queries.size);
+  const std::size_t list_length = std::max(forward_k, backward_k);
   const std::size_t task_size = BLOCKS_A_TASK * QUERY_BLOCK;
   const std::size_t tasks = (queries.size + task_size - 1) / task_size;
   std::vector<std::vector<FeatureMatch>> found(tasks);
-  cpu::ThreadPool(num_threads).forEach(tasks, [&](std::size_t task, std::size_t) {
-    BlockSearch search(queries, targets, blocks, k, kernels);
-    std::vector<Candidate> best[QUERY_BLOCK];
-    for (std::size_t b = 0; b < BLOCKS_A_TASK; ++b) {
-      const std::size_t first = task * task_size + b * QUERY_BLOCK;
-      if (first >= queries.size)
-        break;
-      search.run(first, best);
+  cpu::ThreadPool pool(num_threads);
+  std::vector<std::optional<BlockSearch>> searches(pool.size());
+  pool.forEach(tasks, [&](std::size_t task, std::size_t thread) {
+    if (!searches[thread])
+      searches[thread].emplace(queries,
+                               targets,
+                               blocks,
+                               largest_query_norm,
+                               list_length,
+                               both_ways,
+                               kernels);
+    const std::size_t end = std::min(queries.size, (task + 1) * task_size);
+    for (std::size_t first = task * task_size; first < end; first += QUERY_BLOCK) {
+      const NearestLists& lists = searches[thread]->run(first);
       for (std::size_t q = 0; q < QUERY_BLOCK; ++q)
-        for (const Candidate& match : best[q])
-          found[task].push_back({static_cast<std::int32_t>(first + q),
-                                 match.target,
-                                 static_cast<float>(match.squared_distance)});
+        append(found[task], first + q, lists.begin(q), lists.end(q));
     }
   });
 
-  std::vector<FeatureMatch> matches;
-  matches.reserve(queries.size * std::min(k, targets.size));
+  MutualMatches matches;
+  matches.forward.reserve(queries.size * forward_k);
   for (const std::vector<FeatureMatch>& part : found)
-    matches.insert(matches.end(), part.begin(), part.end());
+    matches.forward.insert(matches.forward.end(), part.begin(), part.end());
+  if (both_ways)
+    matches.backward = mergeBackward(searches, targets.size, list_length);
   return matches;
+}
+
+} // namespace
+
+std::vector<FeatureMatch>
+matchFeatures(const FeatureView& queries,
+              const FeatureView& targets,
+              std::size_t k,
+              unsigned num_threads)
+{
+  return search(queries, targets, k, num_threads, false).forward;
+}
+
+MutualMatches
+matchFeaturesBothWays(const FeatureView& queries,
+                      const FeatureView& targets,
+                      std::size_t k,
+                      unsigned num_threads)
+{
+  return search(queries, targets, k, num_threads, true);
+}
+
+std::vector<FeatureMatch>
+MutualMatches::mutual() const
+{
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  pairs.reserve(backward.size());
+  for (const FeatureMatch& match : backward)
+    pairs.emplace_back(match.match, match.query);
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<FeatureMatch> both;
+  for (const FeatureMatch& match : forward)
+    if (std::binary_search(
+            pairs.begin(), pairs.end(), std::make_pair(match.query, match.match)))
+      both.push_back(match);
+  return both;
 }
 
 } // namespace pcl_flashreg

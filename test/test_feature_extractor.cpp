@@ -61,12 +61,11 @@ voxelOracle(const Points& points, float size)
   const float inverse = 1 / size;
   for (std::size_t i = 0; i < points.size(); i += 3) {
     const Eigen::Vector3f p(&points[i]);
-    auto& [sum, count] =
-        sums.try_emplace({std::floor(p.z() * inverse),
-                          std::floor(p.y() * inverse),
-                          std::floor(p.x() * inverse)},
-                         std::make_pair(Eigen::Vector3d(0, 0, 0), 0))
-            .first->second;
+    auto& [sum, count] = sums.try_emplace({std::floor(p.z() * inverse),
+                                           std::floor(p.y() * inverse),
+                                           std::floor(p.x() * inverse)},
+                                          std::make_pair(Eigen::Vector3d(0, 0, 0), 0))
+                             .first->second;
     sum += p.cast<double>();
     ++count;
   }
@@ -205,11 +204,9 @@ TEST(FeatureExtractor, HonoursStrideAndIndices)
       indices.push_back(static_cast<std::int32_t>(i));
     }
   }
-  const PointView view{
-      wide.data(), wide.size() / 5, 5, indices.data(), indices.size()};
-  expectSame(
-      FeatureExtractor(1).describe(view, FeatureParameters::fromResolution(0.1)),
-      describe(half, 0.1));
+  const PointView view{wide.data(), wide.size() / 5, 5, indices.data(), indices.size()};
+  expectSame(FeatureExtractor(1).describe(view, FeatureParameters::fromResolution(0.1)),
+             describe(half, 0.1));
 }
 
 TEST(FeatureExtractor, OfNothingIsNothing)
@@ -322,16 +319,15 @@ TEST(Descriptors, DoNotChangeWithTheFrame)
   const DescribedCloud before =
       FeatureExtractor(1).describe(viewOf(points), parameters);
   Eigen::Vector3f::Map(parameters.viewpoint) = turn * Eigen::Vector3f(1, 1, 1);
-  const DescribedCloud after =
-      FeatureExtractor(1).describe(viewOf(turned), parameters);
+  const DescribedCloud after = FeatureExtractor(1).describe(viewOf(turned), parameters);
   ASSERT_EQ(before.size, after.size);
   std::size_t close = 0;
   for (std::size_t i = 0; i < before.size; ++i) {
     float largest = 0;
     for (std::size_t bin = 0; bin < 33; ++bin)
-      largest = std::max(largest,
-                         std::abs(before.descriptors[33 * i + bin] -
-                                  after.descriptors[33 * i + bin]));
+      largest = std::max(
+          largest,
+          std::abs(before.descriptors[33 * i + bin] - after.descriptors[33 * i + bin]));
     close += largest < 1 ? 1 : 0;
   }
   EXPECT_GT(static_cast<double>(close), 0.95 * static_cast<double>(before.size));

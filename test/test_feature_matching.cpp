@@ -74,7 +74,7 @@ expectSame(const std::vector<FeatureMatch>& a, const std::vector<FeatureMatch>& 
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].query, b[i].query) << i;
     ASSERT_EQ(a[i].match, b[i].match) << i;
-    ASSERT_EQ(a[i].squared_distance, b[i].squared_distance) << i;
+    ASSERT_FLOAT_EQ(a[i].squared_distance, b[i].squared_distance) << i;
   }
 }
 
@@ -100,6 +100,28 @@ TEST_P(Matching, EqualsExhaustiveSearchInDouble)
       const Features targets = makeFeatures(517, dimension, dimension + 2, 2);
       expectSame(matchFeatures(queries.view(), targets.view(), k, 2),
                  exhaustive(queries.view(), targets.view(), k));
+    }
+}
+
+TEST_P(Matching, InBothDirectionsEqualsTwoSearches)
+{
+  for (const std::size_t size : {1, 40, 517})
+    for (const std::size_t k : {1, 2, 60}) {
+      const Features queries = makeFeatures(300, 33, 33, 11);
+      Features targets = makeFeatures(size, 33, 35, 12);
+      targets.values[0] = std::numeric_limits<float>::quiet_NaN();
+      for (const unsigned threads : {1u, 3u}) {
+        const MutualMatches both =
+            matchFeaturesBothWays(queries.view(), targets.view(), k, threads);
+        expectSame(both.forward, exhaustive(queries.view(), targets.view(), k));
+        expectSame(both.backward, exhaustive(targets.view(), queries.view(), k));
+        std::size_t mutual = 0;
+        for (const FeatureMatch& f : both.forward)
+          for (const FeatureMatch& b : both.backward)
+            mutual += f.query == b.match && f.match == b.query ? 1 : 0;
+        EXPECT_EQ(both.mutual().size(), mutual);
+        EXPECT_TRUE(size == 1 || mutual > 0);
+      }
     }
 }
 

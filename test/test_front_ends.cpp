@@ -122,16 +122,16 @@ TEST_P(FrontEnds, AgreeOnDescriptors)
 {
   // From the same normals: where two are parallel, the last bit of a normal decides
   // which of both points a pair is measured from.
-  const auto pcl = detail::estimateFpfh(
-      native.points, native.normals, 5 * GetParam().resolution, 0);
+  const auto pcl =
+      detail::estimateFpfh(native.points, native.normals, 5 * GetParam().resolution, 0);
   ASSERT_EQ(pcl->size(), native.features->size());
   std::size_t agreeing = 0;
   for (std::size_t i = 0; i < pcl->size(); ++i) {
     float largest = 0;
     for (std::size_t bin = 0; bin < 33; ++bin)
-      largest = std::max(largest,
-                         std::abs((*pcl)[i].histogram[bin] -
-                                  (*native.features)[i].histogram[bin]));
+      largest = std::max(
+          largest,
+          std::abs((*pcl)[i].histogram[bin] - (*native.features)[i].histogram[bin]));
     agreeing += largest < CLOSE ? 1 : 0;
   }
   RecordProperty("descriptors", static_cast<int>(pcl->size()));

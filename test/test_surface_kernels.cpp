@@ -95,7 +95,7 @@ TEST_P(EachVariant, FindsAllNeighborsAndNoOthers)
 {
   expectNeighbors(scatter(500, 1, 1), 0.3);
   expectNeighbors(scatter(300, 100, 2), 7);
-  expectNeighbors(scatter(200, 0.1, 3), 1); // all in reach of all
+  expectNeighbors(scatter(200, 0.1, 3), 1);  // all in reach of all
   expectNeighbors(scatter(100, 1, 4), 1e-3); // none
   for (std::size_t count = 1; count < 20; ++count)
     expectNeighbors(scatter(count, 1, 10 + count), 0.8);
@@ -219,10 +219,10 @@ TEST(PairBins, AreThoseOfTheAngles)
     if (swap)
       line = -line;
     const Eigen::Vector3d v = line.cross(u).normalized(), w = u.cross(v);
-    const double values[3] = {
-        (std::atan2(w.dot(other), u.dot(other)) + M_PI) / (2 * M_PI),
-        (v.dot(other) + 1) / 2,
-        (u.dot(line) + 1) / 2};
+    const double values[3] = {(std::atan2(w.dot(other), u.dot(other)) + M_PI) /
+                                  (2 * M_PI),
+                              (v.dot(other) + 1) / 2,
+                              (u.dot(line) + 1) / 2};
     bool borderline =
         std::abs(std::abs(n[0].dot(line)) - std::abs(n[1].dot(line))) < 1e-5;
     for (const double value : values)
@@ -267,8 +267,8 @@ TEST(Symmetric3, HasTheSmallestEigenpairOfEigen)
     Eigen::Matrix3d C = A * A.transpose();
     if (trial % 2 == 0) {
       const Eigen::Quaterniond turn =
-          Eigen::Quaterniond(Eigen::Vector4d(
-                                 random.normal(), random.normal(), random.normal(), 1))
+          Eigen::Quaterniond(
+              Eigen::Vector4d(random.normal(), random.normal(), random.normal(), 1))
               .normalized();
       C = turn * Eigen::Vector3d(random.uniform(0, 1e-3), 0.5, 1).asDiagonal() *
           turn.toRotationMatrix().transpose();

@@ -3,31 +3,7 @@
 
 #include "matching.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace pcl_flashreg::align {
-namespace {
-
-void
-keepMutual(std::vector<FeatureMatch>& matches,
-           const std::vector<FeatureMatch>& backward)
-{
-  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-  pairs.reserve(backward.size());
-  for (const FeatureMatch& match : backward)
-    pairs.emplace_back(match.match, match.query);
-  std::sort(pairs.begin(), pairs.end());
-  const auto is_one_way = [&](const FeatureMatch& match) {
-    return !std::binary_search(
-        pairs.begin(), pairs.end(), std::make_pair(match.query, match.match));
-  };
-  matches.erase(std::remove_if(matches.begin(), matches.end(), is_one_way),
-                matches.end());
-}
-
-} // namespace
-
 RankedCorrespondences
 matchPoints(const Eigen::Matrix3Xd& source_xyz,
             const FeatureView& source_features,
@@ -37,11 +13,11 @@ matchPoints(const Eigen::Matrix3Xd& source_xyz,
             bool mutual,
             unsigned num_threads)
 {
-  auto matches =
-      matchFeatures(source_features, target_features, neighbors, num_threads);
-  if (mutual)
-    keepMutual(matches,
-               matchFeatures(target_features, source_features, neighbors, num_threads));
+  const auto matches =
+      mutual ? matchFeaturesBothWays(
+                   source_features, target_features, neighbors, num_threads)
+                   .mutual()
+             : matchFeatures(source_features, target_features, neighbors, num_threads);
   RankedCorrespondences result;
   const auto n = static_cast<Eigen::Index>(matches.size());
   result.points.source.resize(3, n);

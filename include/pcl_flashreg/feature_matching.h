@@ -49,4 +49,26 @@ matchFeatures(const FeatureView& queries,
               std::size_t k = 1,
               unsigned num_threads = 0);
 
+/** \brief Matches from one search in both directions. */
+struct MutualMatches {
+  /** \brief As matchFeatures(queries, targets) gives them. */
+  std::vector<FeatureMatch> forward;
+  /** \brief As matchFeatures(targets, queries) gives them: `query` is a target here. */
+  std::vector<FeatureMatch> backward;
+
+  /** \brief Those of `forward` that are in `backward`, too; in order. */
+  PCL_FLASHREG_EXPORT std::vector<FeatureMatch>
+  mutual() const;
+};
+
+/** \brief matchFeatures() in both directions in one pass over the pairs. With k = 2 the two
+ * rows of a query are what a ratio test compares.
+ * \throws std::invalid_argument as matchFeatures()
+ */
+PCL_FLASHREG_EXPORT MutualMatches
+matchFeaturesBothWays(const FeatureView& queries,
+                      const FeatureView& targets,
+                      std::size_t k = 1,
+                      unsigned num_threads = 0);
+
 } // namespace pcl_flashreg

@@ -49,7 +49,20 @@ struct FeatureBlock {
   const float* targets;
   /** \brief Squared norm of every target; infinite for padding and invalid ones. */
   const float* target_norms;
+  /** \brief For every target, the squared distance below which a query is a candidate for
+   * it; minus infinity if none is. */
+  const float* target_limits;
   std::size_t dimension;
+};
+
+/** \brief Queries of the distance filter, QUERY_BLOCK of them. */
+struct QueryRows {
+  /** \brief Rows of `dimension` floats. */
+  const float* values;
+  /** \brief Squared norms. */
+  const float* norms;
+  /** \brief |t|^2 - 2 q.t below which a target is a candidate for the query. */
+  const float* thresholds;
 };
 
 /** \brief Number of targets in a block of FeatureBlock. */
@@ -134,12 +147,11 @@ struct Kernels {
                        std::uint64_t* sure,
                        std::uint64_t* possible);
 
-  /** \brief Bit i of candidates[q]: |t|^2 - 2 q.t of target 32 * block + i is below
-   * thresholds[q]. Queries are QUERY_BLOCK rows of `dimension` floats. */
+  /** \brief Bit i of candidates[q]: |t|^2 - 2 q.t of target 32 * block + i is below the
+   * query's threshold, or |q|^2 more than that below the target's limit. */
   void (*featureCandidates)(const FeatureBlock& input,
                             std::size_t block,
-                            const float* queries,
-                            const float* thresholds,
+                            const QueryRows& queries,
                             std::uint32_t* candidates);
 
   /** \brief The points of the runs whose squared distance from the query,

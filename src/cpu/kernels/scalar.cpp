@@ -190,21 +190,24 @@ residualTest(const ResidualInput& in,
 void
 featureCandidates(const FeatureBlock& in,
                   std::size_t block,
-                  const float* queries,
-                  const float* thresholds,
+                  const QueryRows& queries,
                   std::uint32_t* candidates)
 {
   const float* targets = in.targets + block * in.dimension * FEATURE_BLOCK;
   const float* norms = in.target_norms + block * FEATURE_BLOCK;
+  const float* limits = in.target_limits + block * FEATURE_BLOCK;
   for (std::size_t q = 0; q < QUERY_BLOCK; ++q) {
     float products[FEATURE_BLOCK] = {};
     for (std::size_t d = 0; d < in.dimension; ++d)
       for (std::size_t i = 0; i < FEATURE_BLOCK; ++i)
-        products[i] += queries[q * in.dimension + d] * targets[d * FEATURE_BLOCK + i];
+        products[i] +=
+            queries.values[q * in.dimension + d] * targets[d * FEATURE_BLOCK + i];
     candidates[q] = 0;
     for (std::size_t i = 0; i < FEATURE_BLOCK; ++i) {
       const float distance = norms[i] - 2.0f * products[i];
-      candidates[q] |= static_cast<std::uint32_t>(distance < thresholds[q]) << i;
+      const bool is_candidate =
+          distance < queries.thresholds[q] || distance + queries.norms[q] < limits[i];
+      candidates[q] |= static_cast<std::uint32_t>(is_candidate) << i;
     }
   }
 }

@@ -113,8 +113,7 @@ template <typename V>
 void
 featureCandidatesSimd(const FeatureBlock& in,
                       std::size_t block,
-                      const float* queries,
-                      const float* thresholds,
+                      const QueryRows& queries,
                       std::uint32_t* candidates)
 {
   // As many query rows at a time as the accumulators leave registers for.
@@ -123,6 +122,7 @@ featureCandidatesSimd(const FeatureBlock& in,
   constexpr std::size_t GROUPS = V::FEATURE_GROUPS;
   const float* targets = in.targets + block * in.dimension * FEATURE_BLOCK;
   const float* norms = in.target_norms + block * FEATURE_BLOCK;
+  const float* limits = in.target_limits + block * FEATURE_BLOCK;
   const Float minus_two = V::broadcast(-2.0f);
   for (std::size_t q = 0; q < QUERY_BLOCK; ++q)
     candidates[q] = 0;
@@ -137,7 +137,8 @@ featureCandidatesSimd(const FeatureBlock& in,
         for (std::size_t g = 0; g < GROUPS; ++g)
           t[g] = V::load(targets + d * FEATURE_BLOCK + (group + g) * V::WIDTH);
         for (std::size_t q = 0; q < ROWS; ++q) {
-          const Float value = V::broadcast(queries[(first + q) * in.dimension + d]);
+          const Float value =
+              V::broadcast(queries.values[(first + q) * in.dimension + d]);
           for (std::size_t g = 0; g < GROUPS; ++g)
             products[q][g] = V::fma(value, t[g], products[q][g]);
         }
@@ -146,8 +147,13 @@ featureCandidatesSimd(const FeatureBlock& in,
         for (std::size_t g = 0; g < GROUPS; ++g) {
           const Float norm = V::load(norms + (group + g) * V::WIDTH);
           const Float distance = V::fma(minus_two, products[q][g], norm);
-          const auto mask = V::less(distance, V::broadcast(thresholds[first + q]));
-          candidates[first + q] |= V::bits(mask) << ((group + g) * V::WIDTH);
+          const Float whole = V::add(distance, V::broadcast(queries.norms[first + q]));
+          const Float limit = V::load(limits + (group + g) * V::WIDTH);
+          const auto forward =
+              V::less(distance, V::broadcast(queries.thresholds[first + q]));
+          const auto backward = V::less(whole, limit);
+          candidates[first + q] |= (V::bits(forward) | V::bits(backward))
+                                   << ((group + g) * V::WIDTH);
         }
     }
 }
