@@ -64,6 +64,15 @@ TEST_F(CliTest, jsonHasItsKeys)
   EXPECT_GE(timings.at("total").get<double>(), sum);
 }
 
+TEST_F(CliTest, describesWithPclToo)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const CliRun run = align("source.pcd target.pcd --leaf 0.1 --features pcl --json -");
+  ASSERT_EQ(run.status, 0) << run.err;
+  expectTruth(poseOf(run.json()));
+  EXPECT_EQ(align("source.pcd target.pcd --leaf 0.1 --features native").status, 0);
+}
+
 TEST_F(CliTest, writesEverythingItIsAskedFor)
 {
   writeRoom("source.pcd", "target.pcd");

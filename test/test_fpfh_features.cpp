@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-#include <pcl_flashreg/fpfh_features.h>
+#include <pcl_flashreg/pcl_front_end.h>
 
 #include <pcl/common/transforms.h>
 
@@ -128,7 +128,7 @@ TEST(ComputeFpfh, RejectsResolutionsThatMakeNoSense)
 TEST(ComputeFpfh, WithPclRejectsResolutionsTooSmallForTheExtent)
 {
   const auto compute = [](const Cloud& cloud, double resolution) {
-    computeFpfh(cloud, {}, resolution, 1, nullptr, FrontEnd::Pcl);
+    computeFpfhWithPcl(cloud, {}, resolution);
   };
   // 3 m x 2.4 m x 2 m in voxels of 1 mm are 1.4e10 of them.
   EXPECT_THROW(compute(room(), 0.001), std::invalid_argument);

@@ -7,7 +7,7 @@
 #include "io/pcl_cloud.h"
 #include "support/datasets.h"
 
-#include <pcl_flashreg/fpfh_features.h>
+#include <pcl_flashreg/pcl_front_end.h>
 
 #include <Eigen/Eigenvalues>
 

@@ -72,9 +72,11 @@ addInputs(CLI::App& app, Options& options, Words& words)
   app.add_option(
          "--features",
          words.features,
-         wrapped("FPFH descriptors, two .pcd files with one descriptor a point of the "
-                 "clouds, which are then taken as the keypoints"))
-      ->type_name("SRC,TGT")
+         wrapped(
+             "Who computes the FPFH descriptors: native, or pcl (the same by PCL's own "
+             "classes, slower); or two .pcd files with one descriptor a point of the "
+             "clouds, which are then taken as the keypoints"))
+      ->type_name("native|pcl|SRC,TGT")
       ->group("Input");
   app.add_option(
          "--guess",

@@ -56,7 +56,9 @@ takeWords(const Words& words, Options& options)
   options.parameters.second_order = kSecondOrders.at(words.second_order);
   options.parameters.score_metric = kScores.at(words.score);
   options.backend = kBackends.at(words.backend);
-  if (!words.features.empty())
+  if (words.features == "pcl")
+    options.pcl_features = true;
+  else if (!words.features.empty() && words.features != "native")
     options.features = splitPair(words.features, "--features");
   if (words.correspondences.empty())
     return;

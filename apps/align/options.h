@@ -30,6 +30,8 @@ struct Options {
   std::vector<std::string> correspondences;
   /** \brief Two files of descriptors, or none. */
   std::vector<std::string> features;
+  /** \brief Where no descriptors are given: by PCL instead of by this project. */
+  bool pcl_features = false;
   std::string guess;
 
   std::string json;

@@ -6,8 +6,10 @@
 #include "../io/error.h"
 #include "../io/pcl_cloud.h"
 #include "matching.h"
+#include "modules.h"
 
 #include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <sstream>
 
@@ -86,8 +88,13 @@ describe(const Side& side, const Options& options, Outcome& outcome)
   Keypoints keypoints;
   FpfhTimings timings;
   try {
-    keypoints.described = computeFpfh(
-        *side.shifted.points, {}, *outcome.resolution, options.threads, &timings);
+    const auto& points = *side.shifted.points;
+    if (options.pcl_features)
+      loadPclFeatures()(
+          points, *outcome.resolution, options.threads, timings, keypoints.described);
+    else
+      keypoints.described =
+          computeFpfh(points, {}, *outcome.resolution, options.threads, &timings);
   }
   catch (const std::invalid_argument& error) {
     if (options.leaf)

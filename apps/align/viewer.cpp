@@ -3,45 +3,12 @@
 
 #include "viewer.h"
 
-#include "../io/pcl_cloud.h"
-
-#include <pcl/visualization/pcl_visualizer.h>
+#include "modules.h"
 
 #include <cstdlib>
 #include <stdexcept>
 
 namespace pcl_flashreg::align {
-namespace {
-
-using Color = pcl::visualization::PointCloudColorHandlerCustom<pcl::PointXYZ>;
-
-/** \brief Adds one half of the window; both clouds are shown relative to one place. */
-void
-addHalf(pcl::visualization::PCLVisualizer& viewer,
-        const Eigen::Matrix3Xd& source,
-        const Eigen::Matrix3Xd& target,
-        const std::string& title,
-        double left)
-{
-  int viewport = 0;
-  viewer.createViewPort(left, 0, left + 0.5, 1, viewport);
-  viewer.setBackgroundColor(0.08, 0.09, 0.11, viewport);
-  viewer.addText(title, 12, 12, 18, 1, 1, 1, title, viewport);
-  const io::ShiftedCloud shown = io::toPclCloud(target);
-  const Eigen::Matrix3Xd moved = source.colwise() - shown.shift;
-  pcl::PointCloud<pcl::PointXYZ>::Ptr other(new pcl::PointCloud<pcl::PointXYZ>);
-  for (Eigen::Index i = 0; i < moved.cols(); ++i)
-    other->push_back(pcl::PointXYZ(static_cast<float>(moved(0, i)),
-                                   static_cast<float>(moved(1, i)),
-                                   static_cast<float>(moved(2, i))));
-  other->is_dense = false;
-  viewer.addPointCloud(
-      shown.points, Color(shown.points, 77, 148, 230), "target " + title, viewport);
-  viewer.addPointCloud(other, Color(other, 245, 150, 40), "source " + title, viewport);
-}
-
-} // namespace
-
 const bool kViewerBuiltIn = true;
 
 void
@@ -57,13 +24,10 @@ showClouds(const Eigen::Matrix3Xd& source,
            const Eigen::Matrix3Xd& target,
            const RigidTransform& T_target_source)
 {
-  pcl::visualization::PCLVisualizer viewer("pcl_flashreg_align");
   const Eigen::Matrix3Xd moved =
       (T_target_source.rotation * source).colwise() + T_target_source.translation;
-  addHalf(viewer, source, target, "before", 0.0);
-  addHalf(viewer, moved, target, "after", 0.5);
-  viewer.resetCamera();
-  viewer.spin();
+  loadViewer()(
+      {source.data(), moved.data(), source.cols(), target.data(), target.cols()});
 }
 
 } // namespace pcl_flashreg::align

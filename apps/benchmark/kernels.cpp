@@ -131,22 +131,86 @@ void
 featureCandidates(benchmark::State& state, const Kernels* kernels)
 {
   constexpr std::size_t BLOCKS = 64, DIMENSION = 33;
-  AlignedBuffer<float> targets, norms, queries;
+  AlignedBuffer<float> targets, norms, limits, queries;
   fill(targets, BLOCKS * DIMENSION * cpu::FEATURE_BLOCK, 1);
   fill(norms, BLOCKS * cpu::FEATURE_BLOCK, 2);
   fill(queries, cpu::QUERY_BLOCK * DIMENSION, 3);
-  const std::vector<float> thresholds(cpu::QUERY_BLOCK,
-                                      -std::numeric_limits<float>::infinity());
+  constexpr float NONE = -std::numeric_limits<float>::infinity();
+  limits.resize(BLOCKS * cpu::FEATURE_BLOCK);
+  std::fill(limits.begin(), limits.end(), NONE);
+  const std::vector<float> thresholds(cpu::QUERY_BLOCK, NONE);
   std::uint32_t candidates[cpu::QUERY_BLOCK];
-  const cpu::FeatureBlock input{targets.data(), norms.data(), DIMENSION};
+  const cpu::FeatureBlock input{targets.data(), norms.data(), limits.data(), DIMENSION};
+  const cpu::QueryRows rows{queries.data(), norms.data(), thresholds.data()};
   std::size_t block = 0;
   for (auto _ : state) {
-    kernels->featureCandidates(
-        input, block, queries.data(), thresholds.data(), candidates);
+    kernels->featureCandidates(input, block, rows, candidates);
     benchmark::ClobberMemory();
     block = (block + 1) % BLOCKS;
   }
   state.SetItemsProcessed(state.iterations() * cpu::QUERY_BLOCK * cpu::FEATURE_BLOCK);
+}
+
+/** \brief Points at random in a cube of which each reaches about one in eight. */
+struct Surface {
+  static constexpr std::size_t COUNT = 512;
+  static constexpr float SQUARED_RADIUS = 0.08f;
+  AlignedBuffer<float> columns[6];
+
+  Surface()
+  {
+    for (int c = 0; c < 6; ++c)
+      fill(columns[c], COUNT + cpu::NEIGHBOR_BLOCK, static_cast<std::uint64_t>(c + 1));
+  }
+
+  cpu::SurfaceArrays
+  arrays() const
+  {
+    return {columns[0].data(),
+            columns[1].data(),
+            columns[2].data(),
+            columns[3].data(),
+            columns[4].data(),
+            columns[5].data()};
+  }
+};
+
+void
+collectNeighbors(benchmark::State& state, const Kernels* kernels)
+{
+  const Surface surface;
+  const cpu::PointRun run{0, Surface::COUNT};
+  std::vector<std::uint32_t> indices(Surface::COUNT + cpu::NEIGHBOR_BLOCK);
+  std::vector<float> distances(indices.size());
+  const float query[3] = {
+      surface.columns[0][0], surface.columns[1][0], surface.columns[2][0]};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(kernels->collectNeighbors(surface.arrays(),
+                                                       &run,
+                                                       1,
+                                                       query,
+                                                       Surface::SQUARED_RADIUS,
+                                                       indices.data(),
+                                                       distances.data()));
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * Surface::COUNT);
+}
+
+void
+pairHistogram(benchmark::State& state, const Kernels* kernels)
+{
+  const Surface surface;
+  std::vector<std::uint32_t> indices;
+  for (std::uint32_t i = 0; i < Surface::COUNT; ++i)
+    indices.push_back((7 * i + 3) % Surface::COUNT);
+  std::uint32_t histogram[cpu::FPFH_BINS] = {};
+  for (auto _ : state) {
+    kernels->pairHistogram(
+        surface.arrays(), 0, indices.data(), indices.size(), histogram);
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * Surface::COUNT);
 }
 
 } // namespace
@@ -163,7 +227,9 @@ main(int argc, char** argv)
                  {"transpose", transpose},
                  {"commonNeighbours", commonNeighbours},
                  {"residualTest", residualTest},
-                 {"featureCandidates", featureCandidates}};
+                 {"featureCandidates", featureCandidates},
+                 {"collectNeighbors", collectNeighbors},
+                 {"pairHistogram", pairHistogram}};
   for (const auto& [name, loop] : loops)
     for (std::size_t i = 0; i < count; ++i)
       benchmark::RegisterBenchmark(

@@ -11,6 +11,8 @@ namespace {
 
 constexpr int WARM_UP_RUNS = 3;
 
+} // namespace
+
 Spread
 spreadOf(std::vector<double> times)
 {
@@ -21,8 +23,6 @@ spreadOf(std::vector<double> times)
   };
   return {at(0.5), at(0.1), at(0.9), times.front()};
 }
-
-} // namespace
 
 Measurement
 measure(const std::string& name,

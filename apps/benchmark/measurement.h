@@ -33,6 +33,9 @@ struct Spread {
   double median, p10, p90, least;
 };
 
+Spread
+spreadOf(std::vector<double> times);
+
 /** \brief One problem, timed. */
 struct Measurement {
   std::string name;

@@ -9,14 +9,6 @@
 
 namespace pcl_flashreg {
 
-/** \brief Who computes keypoints, normals and descriptors. */
-enum class FrontEnd {
-  /** \brief FeatureExtractor: PCL's quantities, some twenty times as fast. */
-  Native,
-  /** \brief pcl::VoxelGrid, NormalEstimationOMP and FPFHEstimationOMP. */
-  Pcl
-};
-
 /** \brief Keypoints of a cloud (one a voxel), their normals and FPFH descriptors; same
  * size and order. All pointers are null until something was computed. */
 struct FpfhCloud {
@@ -45,11 +37,10 @@ struct FpfhTimings {
  * \param[in] resolution voxel size, in the unit of the cloud, > 0 and finite
  * \param[in] num_threads CPU threads; 0 takes as many as there are processors
  * \param[out] timings of the three steps, if not null
- * \param[in] front_end see there
  * \return possibly without any point, never with null pointers
  * \throws std::invalid_argument if the resolution is not > 0 and finite; if it is so
- * small for the extent of the cloud that the voxels can't be numbered (with 64 bits;
- * pcl::VoxelGrid: more than 2^31 of them); if an index is not one of the cloud
+ * small for the extent of the cloud that 64 bits can't number the voxels; if an index
+ * is not one of the cloud
  */
 template <typename PointT>
 FpfhCloud
@@ -57,8 +48,7 @@ computeFpfh(const pcl::PointCloud<PointT>& cloud,
             const pcl::Indices& indices,
             double resolution,
             unsigned num_threads = 0,
-            FpfhTimings* timings = nullptr,
-            FrontEnd front_end = FrontEnd::Native);
+            FpfhTimings* timings = nullptr);
 
 /** \brief A resolution for a cloud that nobody gave one for, in the unit of the cloud.
  *

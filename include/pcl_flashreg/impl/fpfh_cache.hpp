@@ -4,10 +4,20 @@
 #pragma once
 
 #include <pcl_flashreg/fpfh_features.h>
+#include <pcl_flashreg/pcl_front_end.h>
 
 #include <optional>
 
 namespace pcl_flashreg {
+
+/** \brief Who computes keypoints, normals and descriptors. */
+enum class FrontEnd {
+  /** \brief computeFpfh() */
+  Native,
+  /** \brief computeFpfhWithPcl() */
+  Pcl
+};
+
 namespace detail {
 
 /** \brief The descriptors of one cloud, computed again only where what they depend on
@@ -52,7 +62,9 @@ public:
     FpfhTimings timings;
     if (resolution == resolution_ && front_end == front_end_)
       return timings;
-    fpfh_ = computeFpfh(cloud, indices_, resolution, num_threads, &timings, front_end);
+    fpfh_ = front_end == FrontEnd::Pcl
+                ? computeFpfhWithPcl(cloud, indices_, resolution, num_threads, &timings)
+                : computeFpfh(cloud, indices_, resolution, num_threads, &timings);
     resolution_ = resolution;
     front_end_ = front_end;
     return timings;

@@ -5,15 +5,23 @@
 
 #include <pcl_flashreg/feature_extractor.h>
 #include <pcl_flashreg/fpfh_features.h>
-#include <pcl_flashreg/impl/pcl_front_end.hpp>
 #include <pcl_flashreg/impl/voxel_count.hpp>
 
+#include <pcl/common/point_tests.h>
+
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
-#include <memory>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace pcl_flashreg {
 namespace detail {
+
+using PointsXYZ = pcl::PointCloud<pcl::PointXYZ>;
+using Normals = pcl::PointCloud<pcl::Normal>;
+using Fpfh33 = pcl::PointCloud<pcl::FPFHSignature33>;
 
 /** \brief The finite ones of the points that the indices name (all, if empty). */
 template <typename PointT>
@@ -101,15 +109,17 @@ toFpfhCloud(const DescribedCloud& described)
   return result;
 }
 
+} // namespace detail
+
 template <typename PointT>
 FpfhCloud
-computeFpfhNatively(const pcl::PointCloud<PointT>& cloud,
-                    const pcl::Indices& indices,
-                    double resolution,
-                    unsigned num_threads,
-                    FpfhTimings& timings)
+computeFpfh(const pcl::PointCloud<PointT>& cloud,
+            const pcl::Indices& indices,
+            double resolution,
+            unsigned num_threads,
+            FpfhTimings* timings)
 {
-  const FloatRows<PointT> rows(cloud);
+  const detail::FloatRows<PointT> rows(cloud);
   const std::vector<std::int32_t> selected(indices.begin(), indices.end());
   PointView view = rows.view();
   if (!indices.empty()) {
@@ -120,36 +130,16 @@ computeFpfhNatively(const pcl::PointCloud<PointT>& cloud,
   for (int axis = 0; axis < 3; ++axis)
     parameters.viewpoint[axis] = cloud.sensor_origin_[axis];
   FeatureTimings spent;
-  const FpfhCloud result =
-      toFpfhCloud(FeatureExtractor(num_threads).describe(view, parameters, &spent));
+  const FpfhCloud result = detail::toFpfhCloud(
+      FeatureExtractor(num_threads).describe(view, parameters, &spent));
   result.points->header = cloud.header;
   result.points->sensor_origin_ = cloud.sensor_origin_;
   result.points->sensor_orientation_ = cloud.sensor_orientation_;
-  timings.voxel_grid = spent.voxel_grid;
-  timings.normals = spent.neighbor_grid + spent.normals;
-  timings.features = spent.point_histograms + spent.feature_histograms;
-  return result;
-}
-
-} // namespace detail
-
-template <typename PointT>
-FpfhCloud
-computeFpfh(const pcl::PointCloud<PointT>& cloud,
-            const pcl::Indices& indices,
-            double resolution,
-            unsigned num_threads,
-            FpfhTimings* timings,
-            FrontEnd front_end)
-{
-  FpfhTimings spent;
-  FpfhCloud result =
-      front_end == FrontEnd::Pcl
-          ? detail::computeFpfhWithPcl(
-                detail::finitePoints(cloud, indices), resolution, num_threads, spent)
-          : detail::computeFpfhNatively(cloud, indices, resolution, num_threads, spent);
-  if (timings)
-    *timings = spent;
+  if (timings) {
+    timings->voxel_grid = spent.voxel_grid;
+    timings->normals = spent.neighbor_grid + spent.normals;
+    timings->features = spent.point_histograms + spent.feature_histograms;
+  }
   return result;
 }
 

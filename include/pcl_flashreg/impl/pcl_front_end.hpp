@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-// Keypoints, normals and FPFH by PCL's own classes: the alternative to FeatureExtractor,
-// and what that is compared with.
-
 #pragma once
 
-#include <pcl_flashreg/fpfh_features.h>
 #include <pcl_flashreg/impl/stopwatch.hpp>
+#include <pcl_flashreg/pcl_front_end.h>
 
-#include <pcl/common/point_tests.h>
 #include <pcl/features/fpfh_omp.h>
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/filters/voxel_grid.h>
@@ -24,10 +20,6 @@
 
 namespace pcl_flashreg {
 namespace detail {
-
-using PointsXYZ = pcl::PointCloud<pcl::PointXYZ>;
-using Normals = pcl::PointCloud<pcl::Normal>;
-using Fpfh33 = pcl::PointCloud<pcl::FPFHSignature33>;
 
 /** \brief pcl::VoxelGrid numbers voxels with 32 bits, and returns the cloud unfiltered,
  * with a warning only, where these don't suffice; so that is checked beforehand.
@@ -127,14 +119,12 @@ isFiniteFpfh(const pcl::FPFHSignature33& feature)
                      [](float value) { return std::isfinite(value); });
 }
 
-/** \brief Keypoints, normals and descriptors by PCL's own classes.
- * \param[in] points finite
- * \throws std::invalid_argument see computeFpfh() */
+/** \param[in] points finite */
 inline FpfhCloud
-computeFpfhWithPcl(const PointsXYZ::Ptr& points,
-                   double resolution,
-                   unsigned num_threads,
-                   FpfhTimings& timings)
+describeWithPcl(const PointsXYZ::Ptr& points,
+                double resolution,
+                unsigned num_threads,
+                FpfhTimings& timings)
 {
   FpfhCloud result;
   result.points = points;
@@ -176,4 +166,21 @@ computeFpfhWithPcl(const PointsXYZ::Ptr& points,
 }
 
 } // namespace detail
+
+template <typename PointT>
+FpfhCloud
+computeFpfhWithPcl(const pcl::PointCloud<PointT>& cloud,
+                   const pcl::Indices& indices,
+                   double resolution,
+                   unsigned num_threads,
+                   FpfhTimings* timings)
+{
+  FpfhTimings spent;
+  FpfhCloud result = detail::describeWithPcl(
+      detail::finitePoints(cloud, indices), resolution, num_threads, spent);
+  if (timings)
+    *timings = spent;
+  return result;
+}
+
 } // namespace pcl_flashreg
