@@ -141,6 +141,21 @@ viewOf(const InputFeatures& features)
           features.dimension};
 }
 
+/** \brief Matching compares every keypoint with every other one. */
+void
+warnOfLongMatching(const Keypoints& source,
+                   const Keypoints& target,
+                   const Progress& progress)
+{
+  constexpr double MANY_PAIRS = 2e10; // some ten seconds on two cores
+  const auto sources = source.xyz.cols(), targets = target.xyz.cols();
+  if (static_cast<double>(sources) * static_cast<double>(targets) > MANY_PAIRS)
+    progress.note("matching " + std::to_string(sources) + " with " +
+                  std::to_string(targets) +
+                  " keypoints takes long; half as many voxels an axis (a --leaf "
+                  "twice as large) take a sixteenth of it");
+}
+
 RankedCorrespondences
 matchClouds(const Options& options,
             const Inputs& inputs,
@@ -171,6 +186,7 @@ matchClouds(const Options& options,
   const Keypoints from = describe(source, options, outcome);
   progress.say("describing the target");
   const Keypoints to = describe(target, options, outcome);
+  warnOfLongMatching(from, to, progress);
   return match(from.xyz,
                viewOf(*from.described.features),
                to.xyz,

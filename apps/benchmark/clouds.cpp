@@ -115,8 +115,8 @@ runOnce(const FrontEnd& front_end,
     run.times.features += timings.features;
   }
   const Stopwatch matching;
-  const std::vector<FeatureMatch> matches = front_end.match(
-      *described[0].features, *described[1].features, options.threads);
+  const std::vector<FeatureMatch> matches =
+      front_end.match(*described[0].features, *described[1].features, options.threads);
   run.times.matching = matching.milliseconds();
   const Stopwatch estimation;
   std::vector<float> xyz[2], ranks;
@@ -205,8 +205,9 @@ int
 main(int argc, char** argv)
 {
   using namespace pcl_flashreg;
-  CLI::App app{"Times the way from two clouds to the pose, with the native front end and "
-               "with PCL's classes and FLANN beside it."};
+  CLI::App app{
+      "Times the way from two clouds to the pose, with the native front end and "
+      "with PCL's classes and FLANN beside it."};
   benchmark::Options options;
   app.add_option("source", options.source, "cloud (.pcd, .ply, .bin)")->required();
   app.add_option("target", options.target, "cloud (.pcd, .ply, .bin)")->required();

@@ -8,7 +8,7 @@ namespace cpu {
 namespace {
 
 /** \brief Points that are added up in one go. */
-constexpr std::size_t PIECE = 32768;
+constexpr std::size_t PIECE = 8192;
 
 /** \brief pcl::VoxelGrid multiplies by the inverse in single precision; points on the
  * border of two voxels must go where it puts them. */
@@ -18,7 +18,13 @@ struct VoxelFloor {
   double
   operator()(float x) const
   {
-    return std::floor(x * inverse_size);
+    // The library's floor is a call where the instruction set has none.
+    const float scaled = x * inverse_size;
+    if (std::abs(scaled) < 1e9f) {
+      const auto truncated = static_cast<std::int32_t>(scaled);
+      return truncated - (static_cast<float>(truncated) > scaled ? 1 : 0);
+    }
+    return std::floor(scaled);
   }
 };
 
