@@ -28,7 +28,9 @@ struct PoseEstimate {
 /** \brief The method, once for every backend (docs/method.md): stages 1 to 7.
  *
  * \tparam Stages a backend's buffers and its form of every stage; a stage reads what the
- * ones before it left there
+ * ones before it left there. It may return before its work is done; finish() marks its end.
+ * settled() waits for the work, and tells whether stage 2 had the buffers that this input
+ * needs: a device finds out when it is too late to ask the host for others.
  * \param[in] guess a pose in the centred frames that is verified with the others
  */
 template <typename Stages>
@@ -40,32 +42,34 @@ runPipeline(Stages& stages,
             StageClock& clock,
             Trace* trace)
 {
-  stages.begin(problem, parameters);
+  stages.begin(problem, parameters, guess, clock);
 
   stages.firstOrderGraph(); // Eq. (dis), (fog)
-  clock.finish(&StageTimings::first_order_graph);
+  stages.finish(&StageTimings::first_order_graph);
 
-  stages.secondOrderGraph(); // Eq. (sog), (sog_trunc), (ell_sog)
-  clock.finish(&StageTimings::second_order_graph);
+  do {
+    stages.secondOrderGraph(); // Eq. (sog), (sog_trunc), (ell_sog)
+    stages.finish(&StageTimings::second_order_graph);
 
-  stages.pivots(); // Eq. (pivot), Alg. 1 phase 1
-  clock.finish(&StageTimings::pivots);
+    stages.pivots(); // Eq. (pivot), Alg. 1 phase 1
+    stages.finish(&StageTimings::pivots);
 
-  stages.cliques(); // Eq. (common), (clique), Alg. 1 phase 2
-  clock.finish(&StageTimings::cliques);
+    stages.cliques(); // Eq. (common), (clique), Alg. 1 phase 2
+    stages.finish(&StageTimings::cliques);
 
-  stages.hypotheses(guess); // three-point alignment
-  clock.finish(&StageTimings::hypotheses);
+    stages.hypotheses(); // three-point alignment
+    stages.finish(&StageTimings::hypotheses);
 
-  stages.verification(); // residuals of all correspondences
-  clock.finish(&StageTimings::verification);
+    stages.verification(); // residuals of all correspondences
+    stages.finish(&StageTimings::verification);
 
-  PoseEstimate estimate = stages.refinement(); // reweighted alignment, Eq. (objective)
-  clock.finish(&StageTimings::refinement);
+    stages.refinement(); // reweighted alignment, Eq. (objective)
+    stages.finish(&StageTimings::refinement);
+  } while (!stages.settled());
 
   if (trace)
     stages.copyTo(*trace);
-  return estimate;
+  return stages.result();
 }
 
 } // namespace pcl_flashreg

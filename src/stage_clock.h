@@ -26,6 +26,14 @@ public:
     last_ = now;
   }
 
+  /** \brief Books time that somebody else has measured, and starts anew. */
+  void
+  book(double StageTimings::*stage, double elapsed_ms)
+  {
+    timings_ms_.*stage += elapsed_ms;
+    last_ = Clock::now();
+  }
+
   void
   finishAll()
   {

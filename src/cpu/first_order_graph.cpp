@@ -2,23 +2,12 @@
 // Copyright (c) the pcl_flashreg authors
 
 // Stage 1: the compatibility graph as a bit matrix, Eq. (dis) and (fog).
-//
-// The exact test takes two square roots a pair. Most pairs are decided without them: with
-// a and b the squared lengths, D = a - b, S = a + b, p = (sqrt a - sqrt b)^2 and
-// q = (sqrt a + sqrt b)^2, one has pq = D^2 and p + q = 2 S, hence
-//
-//   (p - tau^2) (q - tau^2) = D^2 - 2 tau^2 S + tau^4 =: E,
-//
-// so that wherever q > tau^2 (any edge has sqrt q > r >= 2 tau), |sqrt a - sqrt b| < tau is
-// E < 0; and sqrt q > r follows from 2 S - tau^2 > r^2 and implies 2 S > r^2. With a and b
-// from norms and inner products that is 8 + 4 operations a pair and no root. It is carried
-// out in single precision with a bound on everything that rounding can do to it; pairs
-// inside the bound, a few in a hundred edges, are left to the exact test.
+// Most pairs are decided by a filter, math/edge_filter.h, and the rest by the exact test.
 
 #include "cpu/stages.h"
+#include "math/edge_filter.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pcl_flashreg {
 namespace cpu {
@@ -26,35 +15,6 @@ namespace {
 
 /** \brief Blocks of 64 in a tile: 8 words, so that no two tiles write to one cache line. */
 constexpr std::size_t TILE_BLOCKS = 8;
-
-/** \brief Half the spacing of floats at 1. */
-constexpr double UNIT_ROUNDOFF = 1.0 / (1 << 24);
-
-/** \brief Thresholds of the filter; see EdgeTestInput and the derivation above.
- *
- * With u the unit roundoff and R the radius of the points, a and b carry errors of at most
- * 16 u R^2 from norms and products, D and S 36 and 40 u R^2. E then is off by at most
- * 737 u R^3 tau near its zero (|D| is below 8 R tau there; beyond, E exceeds 48 R^2 tau^2),
- * and the exact test's own rounding, at most 16 u R in |sqrt a - sqrt b|, moves the zero
- * by another 512 u R^3 tau. The bounds below round these up.
- */
-void
-setThresholds(EdgeTestInput& in, double radius)
-{
-  const double R = radius * (1 + 1e-6);
-  const double tau = in.length_tolerance;
-  const double r = in.min_length_sum;
-  in.use_filter = R >= 1e-6 && R <= 1e6 && tau <= R && tau >= 1e-6 * R &&
-                  r >= 2 * tau && r <= 4 * R;
-  const double defect_margin = 2048 * UNIT_ROUNDOFF * R * R * R * tau;
-  const double sum_margin = 128 * UNIT_ROUNDOFF * R * R + 1e-6 * r * r;
-  in.minus_two_tau2 = static_cast<float>(-2 * tau * tau);
-  in.tau4 = static_cast<float>(tau * tau * tau * tau);
-  in.sure_defect = static_cast<float>(-defect_margin);
-  in.possible_defect = static_cast<float>(defect_margin);
-  in.sure_sum = static_cast<float>((r * r + tau * tau) / 2 + sum_margin);
-  in.possible_sum = static_cast<float>(r * r / 2 - sum_margin);
-}
 
 } // namespace
 
@@ -80,7 +40,15 @@ Stages::edgeTestInput()
   in.target_norm = target_norm_.data();
   in.length_tolerance = parameters_->length_tolerance;
   in.min_length_sum = parameters_->min_length_sum;
-  setThresholds(in, p.radius);
+  const EdgeFilter filter =
+      edgeFilter(p.radius, in.length_tolerance, in.min_length_sum);
+  in.use_filter = filter.use;
+  in.minus_two_tau2 = filter.minus_two_tau2;
+  in.tau4 = filter.tau4;
+  in.sure_defect = filter.sure_defect;
+  in.possible_defect = filter.possible_defect;
+  in.sure_sum = filter.sure_sum;
+  in.possible_sum = filter.possible_sum;
   return in;
 }
 

@@ -11,10 +11,10 @@ namespace pcl_flashreg {
 namespace cpu {
 
 void
-Stages::hypotheses(const std::optional<Pose>& guess)
+Stages::hypotheses()
 {
   constexpr std::size_t CLIQUES_A_TASK = 256;
-  const std::size_t count = cliques_.size() + (guess ? 1 : 0);
+  const std::size_t count = cliques_.size() + (guess_ ? 1 : 0);
   poses_.resize(count);
   pose_valid_.assign(count, 0);
   const std::size_t tasks = (cliques_.size() + CLIQUES_A_TASK - 1) / CLIQUES_A_TASK;
@@ -28,8 +28,8 @@ Stages::hypotheses(const std::optional<Pose>& guess)
       pose_valid_[i] = alignTriplet(source, target, poses_[i]);
     }
   });
-  if (guess) {
-    poses_.back() = *guess;
+  if (guess_) {
+    poses_.back() = *guess_;
     pose_valid_.back() = 1;
   }
 }

@@ -5,40 +5,22 @@
 
 #include "cpu/bits.h"
 #include "cpu/stages.h"
+#include "math/distinctness.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace pcl_flashreg {
 namespace cpu {
-namespace {
-
-/** \brief Hypotheses that are refined to fill the list, for every one that is wanted: a
- * bound on the time where many of them turn out to be the same after refinement. */
-constexpr std::size_t REFINEMENTS_A_HYPOTHESIS = 2;
-
-/** \brief Distinct poses take some point of the data further apart than this many inlier
- * distances. */
-constexpr double DISTINCT_DISTANCES = 5;
-
-} // namespace
 
 /** \brief Whether two poses put the corners of the cube around the source points to
  * nearly the same places. */
 bool
 Stages::sameWithinReach(const Pose& a, const Pose& b) const
 {
-  const double reach = problem_->radius / std::sqrt(3.0);
-  const double limit = DISTINCT_DISTANCES * parameters_->inlier_distance;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p{corner & 1 ? reach : -reach,
-                 corner & 2 ? reach : -reach,
-                 corner & 4 ? reach : -reach};
-    const Vec3 d = transform(a, p) - transform(b, p);
-    if (!(dot(d, d) <= limit * limit))
+  for (int corner = 0; corner < CORNERS; ++corner)
+    if (!agreeOnCorner(a, b, problem_->radius, parameters_->inlier_distance, corner))
       return false;
-  }
   return true;
 }
 
@@ -55,16 +37,17 @@ Stages::refine(const Pose& start)
   best.pose = start;
   int count = findInliers(toSingle(start), inliers, possible_words_.data());
   for (int round = 0; round < parameters_->refinement_iterations; ++round) {
-    AlignmentSums sums;
+    AlignmentSums lanes[ALIGNMENT_LANES];
+    std::size_t lane = 0;
     for (std::size_t w = 0; w < words; ++w)
       for (std::uint64_t bits = inliers[w]; bits != 0; bits &= bits - 1) {
         const std::size_t i = w * WORD_BITS + __builtin_ctzll(bits);
         const Vec3 s = problem_->source(i), t = problem_->target(i);
         const Vec3 d = inverse_limit * (transform(best.pose, s) - t);
-        sums.add(1.0 / (1.0 + dot(d, d)), s, t);
+        lanes[lane++ % ALIGNMENT_LANES].add(1.0 / (1.0 + dot(d, d)), s, t);
       }
     Pose next;
-    if (!alignWeighted(sums, next))
+    if (!alignWeighted(sumLanes(lanes), next))
       break;
     best.pose = next;
     const int previous = count;
@@ -110,7 +93,7 @@ Stages::rankHypotheses() const
   return order;
 }
 
-PoseEstimate
+void
 Stages::refinement()
 {
   const std::size_t words = problem_->padded_size / WORD_BITS;
@@ -119,37 +102,25 @@ Stages::refinement()
   possible_words_.resize(words);
   listed_inliers_.resize(wanted * words);
 
-  PoseEstimate estimate;
-  estimate.second_order = exact_ ? SecondOrder::Exact : SecondOrder::Bounded;
-  std::vector<ScoredPose>& listed = estimate.hypotheses;
+  listed_.clear();
   std::size_t refinements = 0;
   for (const std::uint32_t i : rankHypotheses()) {
-    if (pose_scores_[i] < 0 || listed.size() == wanted ||
+    if (pose_scores_[i] < 0 || listed_.size() == wanted ||
         refinements == REFINEMENTS_A_HYPOTHESIS * wanted)
       break;
-    if (explained(i, listed.size()))
+    if (explained(i, listed_.size()))
       continue;
     ++refinements;
     const ScoredPose refined = refine(poses_[i]);
-    if (std::any_of(listed.begin(), listed.end(), [&](const ScoredPose& other) {
+    if (std::any_of(listed_.begin(), listed_.end(), [&](const ScoredPose& other) {
           return sameWithinReach(other.pose, refined.pose);
         }))
       continue;
     std::copy(inlier_words_.begin(),
               inlier_words_.end(),
-              listed_inliers_.begin() + listed.size() * words);
-    listed.push_back(refined);
+              listed_inliers_.begin() + listed_.size() * words);
+    listed_.push_back(refined);
   }
-  if (!poses_.empty())
-    estimate.status = Status::Degenerate;
-  if (listed.empty() || listed.front().inlier_count < 3) {
-    listed.clear();
-    return estimate;
-  }
-  estimate.status = Status::Ok;
-  estimate.inliers.resize(listed.front().inlier_count);
-  listBits(listed_inliers_.data(), words, estimate.inliers.data());
-  return estimate;
 }
 
 } // namespace cpu

@@ -43,11 +43,34 @@ private:
 } // namespace
 
 void
-Stages::begin(const Problem& problem, const Parameters& parameters)
+Stages::begin(const Problem& problem,
+              const Parameters& parameters,
+              const std::optional<Pose>& guess,
+              StageClock& clock)
 {
   problem_ = &problem;
   parameters_ = &parameters;
+  guess_ = guess;
+  clock_ = &clock;
   scratch_.resize(pool_.size());
+}
+
+PoseEstimate
+Stages::result()
+{
+  PoseEstimate estimate;
+  estimate.second_order = exact_ ? SecondOrder::Exact : SecondOrder::Bounded;
+  if (!poses_.empty())
+    estimate.status = Status::Degenerate;
+  if (listed_.empty() || listed_.front().inlier_count < 3)
+    return estimate;
+  estimate.status = Status::Ok;
+  estimate.hypotheses = listed_;
+  estimate.inliers.resize(listed_.front().inlier_count);
+  listBits(listed_inliers_.data(),
+           problem_->padded_size / WORD_BITS,
+           estimate.inliers.data());
+  return estimate;
 }
 
 void

@@ -26,7 +26,10 @@ public:
   }
 
   void
-  begin(const Problem& problem, const Parameters& parameters);
+  begin(const Problem& problem,
+        const Parameters& parameters,
+        const std::optional<Pose>& guess,
+        StageClock& clock);
   void
   firstOrderGraph();
   void
@@ -36,11 +39,23 @@ public:
   void
   cliques();
   void
-  hypotheses(const std::optional<Pose>& guess);
+  hypotheses();
   void
   verification();
-  PoseEstimate
+  void
   refinement();
+  void
+  finish(double StageTimings::*stage)
+  {
+    clock_->finish(stage);
+  }
+  bool
+  settled() const
+  {
+    return true;
+  }
+  PoseEstimate
+  result();
   void
   copyTo(Trace& trace) const;
 
@@ -132,6 +147,8 @@ private:
   ThreadPool pool_;
   const Problem* problem_ = nullptr;
   const Parameters* parameters_ = nullptr;
+  std::optional<Pose> guess_;
+  StageClock* clock_ = nullptr;
 
   // Stage 1. The bit matrix: padded_size rows of words_ words, symmetric, zero diagonal.
   std::size_t words_ = 0;
@@ -169,6 +186,7 @@ private:
 
   // Stage 7: inliers of the pose at hand, and of every hypothesis that is listed.
   AlignedBuffer<std::uint64_t> inlier_words_, possible_words_, listed_inliers_;
+  std::vector<ScoredPose> listed_;
 };
 
 } // namespace cpu

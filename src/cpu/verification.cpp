@@ -9,7 +9,6 @@
 #include "cpu/stages.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pcl_flashreg {
 namespace cpu {
@@ -21,12 +20,8 @@ constexpr std::size_t POSES_A_TASK = 64;
 /** \brief Words of 64 correspondences in a block: 24 KiB of coordinates. */
 constexpr std::size_t BLOCK_WORDS = 16;
 
-constexpr double UNIT_ROUNDOFF = 1.0 / (1 << 24);
-
 } // namespace
 
-/** \brief Both ways of rounding a residual's component err by at most 22 u B in all, B
- * bounding |R s| + |t| + |q|; the norm, by sqrt(3) times that and 4 u of itself. */
 ResidualInput
 Stages::residualInput(const PoseF& T) const
 {
@@ -43,14 +38,10 @@ Stages::residualInput(const PoseF& T) const
                    0};
   std::copy(T.r, T.r + 9, in.r);
   std::copy(T.t, T.t + 3, in.t);
-  const double tau = parameters_->inlier_distance;
-  const double bound = 2.0 * p.radius + std::fabs(static_cast<double>(T.t[0])) +
-                       std::fabs(static_cast<double>(T.t[1])) +
-                       std::fabs(static_cast<double>(T.t[2]));
-  const double error = UNIT_ROUNDOFF * (64 * bound + 8 * tau);
-  const double sure = std::max(0.0, tau - error);
-  in.sure = static_cast<float>(sure * sure * (1 - 1e-6));
-  in.possible = static_cast<float>((tau + error) * (tau + error) * (1 + 1e-6));
+  const ResidualBounds bounds =
+      residualBounds(T, p.radius, parameters_->inlier_distance);
+  in.sure = bounds.sure;
+  in.possible = bounds.possible;
   return in;
 }
 

@@ -6,6 +6,7 @@
 #include "math/compatibility.h"
 #include "math/host_device.h"
 
+#include <cmath>
 #include <cstdint>
 
 namespace pcl_flashreg {
@@ -25,6 +26,32 @@ squaredResidual(const PoseF& T, const PointPair& c)
   const float dy = (((T.r[3] * c.sx + T.r[4] * c.sy) + T.r[5] * c.sz) + T.t[1]) - c.ty;
   const float dz = (((T.r[6] * c.sx + T.r[7] * c.sy) + T.r[8] * c.sz) + T.t[2]) - c.tz;
   return (dx * dx + dy * dy) + dz * dz;
+}
+
+/** \brief What decides most residuals however they are rounded. */
+struct ResidualBounds {
+  /** \brief An inlier for certain if the squared residual is below `sure`; possibly one if
+   * it is below `possible`. */
+  float sure, possible;
+};
+
+/** \brief Contracted or not, the rounding of a residual's component errs by at most
+ * 22 u B in all, B bounding |R s| + |t| + |q|; the norm, by sqrt(3) times that and 4 u of
+ * itself.
+ * \param[in] radius largest distance of a point from the origin
+ */
+PCL_FLASHREG_HD inline ResidualBounds
+residualBounds(const PoseF& T, float radius, float inlier_distance)
+{
+  constexpr double UNIT_ROUNDOFF = 1.0 / (1 << 24);
+  const double tau = inlier_distance;
+  const double bound = 2.0 * radius + fabs(static_cast<double>(T.t[0])) +
+                       fabs(static_cast<double>(T.t[1])) +
+                       fabs(static_cast<double>(T.t[2]));
+  const double error = UNIT_ROUNDOFF * (64 * bound + 8 * tau);
+  const double sure = tau > error ? tau - error : 0.0;
+  return {static_cast<float>(sure * sure * (1 - 1e-6)),
+          static_cast<float>((tau + error) * (tau + error) * (1 + 1e-6))};
 }
 
 /** \brief Scores are sums of integers, so that their value does not depend on the order

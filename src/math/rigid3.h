@@ -210,6 +210,29 @@ struct AlignmentSums {
   }
 };
 
+/** \brief Pairs are dealt out to this many sums in turn, in ascending order; sumLanes()
+ * adds those up. So every backend rounds the same way, and a warp finds work for all of
+ * its lanes. */
+constexpr int ALIGNMENT_LANES = 32;
+
+/** \brief The sum of all lanes, in a fixed order, left in the first: lane i takes in lane
+ * i + 16, then i + 8, and so on. */
+inline const AlignmentSums&
+sumLanes(AlignmentSums lanes[ALIGNMENT_LANES])
+{
+  for (int distance = ALIGNMENT_LANES / 2; distance > 0; distance /= 2)
+    for (int i = 0; i < distance; ++i) {
+      AlignmentSums& a = lanes[i];
+      const AlignmentSums& b = lanes[i + distance];
+      a.weight += b.weight;
+      a.source = a.source + b.source;
+      a.target = a.target + b.target;
+      for (int k = 0; k < 9; ++k)
+        a.products[k] += b.products[k];
+    }
+  return lanes[0];
+}
+
 /** \brief Eigenvectors of a symmetric 4x4 matrix by cyclic Jacobi rotations.
  * \param[in,out] a the matrix; its diagonal is left with the eigenvalues
  * \param[out] v eigenvectors in columns

@@ -26,7 +26,7 @@ struct EdgeTestInput {
   /** \brief -2 tau^2 and tau^4. */
   float minus_two_tau2, tau4;
   /** \brief Edge for certain if E < sure_defect and S > sure_sum; possibly an edge if
-   * E < possible_defect and S > possible_sum. See first_order_graph.cpp. */
+   * E < possible_defect and S > possible_sum. See math/edge_filter.h. */
   float sure_defect, possible_defect;
   float sure_sum, possible_sum;
 };
