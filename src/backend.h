@@ -31,4 +31,9 @@ public:
 std::unique_ptr<Backend>
 makeCpuBackend(unsigned num_threads);
 
+/** \throws BackendError, with the reason, if this build has no CUDA backend or this machine
+ * no device that it can use */
+std::unique_ptr<Backend>
+makeCudaBackend();
+
 } // namespace pcl_flashreg

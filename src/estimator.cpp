@@ -37,16 +37,26 @@ struct Estimator::Impl {
 
 namespace {
 
+/** \brief Null where CUDA can't be used. */
+std::unique_ptr<Backend>
+tryCudaBackend()
+{
+  try {
+    return makeCudaBackend();
+  }
+  catch (const BackendError&) {
+    return nullptr;
+  }
+}
+
 std::unique_ptr<Backend>
 makeBackend(BackendKind kind, unsigned num_threads)
 {
-  switch (kind) {
-  case BackendKind::Cuda:
-    throw BackendError("backend cuda: this build has no CUDA backend; use cpu or auto");
-  case BackendKind::Auto:
-  case BackendKind::Cpu:
-    break;
-  }
+  if (kind == BackendKind::Cuda)
+    return makeCudaBackend();
+  if (kind == BackendKind::Auto)
+    if (std::unique_ptr<Backend> cuda = tryCudaBackend())
+      return cuda;
   return makeCpuBackend(num_threads);
 }
 
@@ -216,6 +226,8 @@ availableBackends()
   std::size_t count = 0;
   const cpu::Kernels* const* kernels = cpu::availableKernels(count);
   std::vector<std::string> names;
+  if (const std::unique_ptr<Backend> cuda = tryCudaBackend())
+    names.push_back(cuda->name());
   for (std::size_t i = 0; i < count; ++i)
     names.push_back(std::string("cpu-") + kernels[i]->name);
   return names;

@@ -1,0 +1,97 @@
+# The CUDA backend: built where there is a compiler for it. PCL_FLASHREG_CUDA says whether.
+
+set(PCL_FLASHREG_WITH_CUDA AUTO CACHE STRING
+  "Build the CUDA backend: ON, OFF, or AUTO for where nvcc is found")
+set_property(CACHE PCL_FLASHREG_WITH_CUDA PROPERTY STRINGS AUTO ON OFF)
+# Machine code for one of each generation since Turing; later ones run the last entry's
+# intermediate code.
+set(PCL_FLASHREG_CUDA_ARCHITECTURES 75-real 80-real 90-real 100-real 120 CACHE STRING
+  "Compute capabilities that kernels are compiled for, as in CMAKE_CUDA_ARCHITECTURES")
+
+set(PCL_FLASHREG_CUDA OFF)
+if(PCL_FLASHREG_WITH_CUDA)
+  if(NOT CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX})
+    # Where NVIDIA's packages put it, though not on everybody's PATH.
+    find_program(PCL_FLASHREG_NVCC nvcc HINTS ENV CUDA_PATH PATHS /usr/local/cuda PATH_SUFFIXES bin)
+    mark_as_advanced(PCL_FLASHREG_NVCC)
+    if(PCL_FLASHREG_NVCC)
+      set(CMAKE_CUDA_COMPILER ${PCL_FLASHREG_NVCC})
+    endif()
+  endif()
+  set(CMAKE_CUDA_ARCHITECTURES ${PCL_FLASHREG_CUDA_ARCHITECTURES})
+  set(CMAKE_CUDA_RUNTIME_LIBRARY Static)
+  include(CheckLanguage)
+  check_language(CUDA)
+  if(CMAKE_CUDA_COMPILER)
+    enable_language(CUDA)
+    find_package(CUDAToolkit 12 REQUIRED)
+    set(PCL_FLASHREG_CUDA ON)
+  elseif(NOT PCL_FLASHREG_WITH_CUDA STREQUAL "AUTO")
+    message(FATAL_ERROR "PCL_FLASHREG_WITH_CUDA is ${PCL_FLASHREG_WITH_CUDA}, but there is no CUDA compiler")
+  endif()
+endif()
+if(PCL_FLASHREG_CUDA)
+  message(STATUS "pcl_flashreg: CUDA backend for ${CMAKE_CUDA_ARCHITECTURES}")
+else()
+  message(STATUS "pcl_flashreg: no CUDA backend")
+endif()
+
+# Kernels, and the host's side of them.
+set(PCL_FLASHREG_CUDA_KERNELS
+  cuda/cliques.cu
+  cuda/first_order_graph.cu
+  cuda/hypotheses.cu
+  cuda/pivots.cu
+  cuda/refinement.cu
+  cuda/second_order_graph.cu
+  cuda/second_order_graph_bounded.cu
+  cuda/verification.cu)
+set(PCL_FLASHREG_CUDA_HOST
+  cuda/cuda_backend.cpp
+  cuda/error.cpp
+  cuda/stages.cpp
+  cuda/trace.cpp)
+list(TRANSFORM PCL_FLASHREG_CUDA_KERNELS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+list(TRANSFORM PCL_FLASHREG_CUDA_HOST PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+
+# Adds the CUDA backend to the core.
+function(pcl_flashreg_add_cuda core)
+  # A target of its own: nvcc knows none of the host compiler's options.
+  add_library(pcl_flashreg_kernels OBJECT ${PCL_FLASHREG_CUDA_KERNELS})
+  target_include_directories(pcl_flashreg_kernels PRIVATE
+    ${PROJECT_SOURCE_DIR}/cuda ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
+  # As on the host: no contraction but where the source says so; division and roots are
+  # rounded correctly, as is nvcc's default.
+  target_compile_options(pcl_flashreg_kernels PRIVATE --fmad=false)
+  if(PCL_FLASHREG_WERROR)
+    target_compile_options(pcl_flashreg_kernels PRIVATE
+      --Werror=all-warnings -Xcompiler=-Wall,-Wextra)
+  endif()
+  set_target_properties(pcl_flashreg_kernels PROPERTIES
+    CUDA_STANDARD 17
+    CUDA_STANDARD_REQUIRED ON
+    POSITION_INDEPENDENT_CODE ON
+    CUDA_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON)
+
+  target_sources(${core} PRIVATE
+    ${PCL_FLASHREG_CUDA_HOST} $<TARGET_OBJECTS:pcl_flashreg_kernels>)
+  target_include_directories(${core} SYSTEM PRIVATE ${CUDAToolkit_INCLUDE_DIRS})
+  target_link_libraries(${core} PRIVATE ${CMAKE_DL_LIBS} rt)
+  get_target_property(type ${core} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    # CUDA's runtime goes into the archive, so that who links it needs no CUDA.
+    set(script ${CMAKE_CURRENT_BINARY_DIR}/${core}_with_runtime.mri)
+    file(GENERATE OUTPUT ${script} CONTENT "open $<TARGET_FILE:${core}>
+addlib $<TARGET_FILE:CUDA::cudart_static>
+save
+end
+")
+    add_custom_command(TARGET ${core} POST_BUILD
+      COMMAND ${CMAKE_AR} -M < ${script} VERBATIM
+      COMMENT "Adding CUDA's runtime to the library")
+  else()
+    target_link_libraries(${core} PRIVATE CUDA::cudart_static)
+    target_link_options(${core} PRIVATE -Wl,--exclude-libs,ALL)
+  endif()
+endfunction()

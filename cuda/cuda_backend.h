@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "backend.h"
+#include "options.h"
+
+namespace pcl_flashreg {
+namespace cuda {
+
+/** \brief makeCudaBackend() with a say in how kernels are launched. */
+std::unique_ptr<Backend>
+makeBackend(const Options& options);
+
+} // namespace cuda
+} // namespace pcl_flashreg

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "call.cuh"
+
+namespace pcl_flashreg {
+namespace cuda {
+
+/** \brief Stage 1, FastFOG: fills Call::graph. */
+void
+firstOrderGraph(const Call& call, cudaStream_t stream);
+
+} // namespace cuda
+} // namespace pcl_flashreg

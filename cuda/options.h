@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+namespace pcl_flashreg {
+namespace cuda {
+
+/** \brief For tests and measurements: how the kernels are launched. Results do not depend
+ * on it. */
+struct Options {
+  /** \brief Steps that wait for each other share a kernel, with barriers over the whole
+   * grid, where the device can: bounded stage 2 with stage 3, and stage 7. */
+  bool fused = true;
+  /** \brief Marks in the stream for the time of every stage; without them, StageTimings
+   * has the total alone. */
+  bool stage_timings = true;
+};
+
+} // namespace cuda
+} // namespace pcl_flashreg
