@@ -142,23 +142,30 @@ struct Call {
   ScoredPose* listed;
 };
 
-/** \brief Whether this input calls for the exact form of stage 2. */
-__device__ inline bool
-exactCalledFor(const Call& call)
+/** \brief Whether a first-order graph of so many entries calls for the exact form of
+ * stage 2. */
+PCL_FLASHREG_HD inline bool
+callsForExact(const Call& call, unsigned long long entries)
 {
   return call.second_order == SecondOrder::Exact ||
          (call.second_order == SecondOrder::Auto &&
-          call.control->entries <= 8ull * call.row_capacity * call.size);
+          entries <= 8ull * call.row_capacity * call.size);
 }
 
 /** \brief Whether stage 2 has the form that the input calls for, and room for it. The host
  * decides on both before it knows the input; where it was wrong, all kernels from here on
  * do nothing, and the host, which learns of it with the result, starts over. */
+PCL_FLASHREG_HD inline bool
+planHolds(const Call& call, unsigned long long entries)
+{
+  return call.exact == callsForExact(call, entries) &&
+         (!call.exact || entries <= call.entry_capacity);
+}
+
 __device__ inline bool
 planHolds(const Call& call)
 {
-  return call.exact == exactCalledFor(call) &&
-         (!call.exact || call.control->entries <= call.entry_capacity);
+  return planHolds(call, call.control->entries);
 }
 
 /** \brief A pivot as one number, whose ascending order is score descending, then u, then

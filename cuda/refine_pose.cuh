@@ -7,7 +7,7 @@
 
 #include "block.cuh"
 #include "call.cuh"
-#include "verification.cuh"
+#include "residual_test.cuh"
 
 namespace pcl_flashreg {
 namespace cuda {

@@ -284,16 +284,14 @@ Stages::settled()
                                     stream_.get()));
   stream_.synchronize();
   const unsigned long long entries = control().entries;
-  const unsigned long long limit = 8ull * call_.row_capacity * call_.size;
-  const bool exact = call_.second_order == SecondOrder::Exact ||
-                     (call_.second_order == SecondOrder::Auto && entries <= limit);
-  if (exact == call_.exact && (!exact || entries <= call_.entry_capacity)) {
+  if (planHolds(call_, entries)) {
     bookTimes();
     return true;
   }
   // A little more than is needed, so that an input a little larger fits, too; but not more
   // than `auto` could ever ask for.
-  if (exact)
+  const unsigned long long limit = 8ull * call_.row_capacity * call_.size;
+  if (callsForExact(call_, entries))
     planExact(std::max(entries, std::min(entries + entries / 8, limit)));
   else
     planBounded();

@@ -76,8 +76,6 @@ private:
   planExact(unsigned long long entries);
   void
   planBounded();
-  bool
-  planHeld() const;
   void
   bookTimes();
 

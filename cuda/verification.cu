@@ -11,7 +11,9 @@
 
 #include "verification.cuh"
 
+#include "block.cuh"
 #include "launch.cuh"
+#include "residual_test.cuh"
 
 namespace pcl_flashreg {
 namespace cuda {

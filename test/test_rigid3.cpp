@@ -151,6 +151,50 @@ TEST(AlignWeighted, AgreesWithKabsch)
   }
 }
 
+/** \brief Points near a plane, a line, or a point far from the origin: whatever the data
+ * determine must come out to the accuracy that they determine it with. */
+TEST(AlignWeighted, AgreesWithKabschOnFlatAndThinClouds)
+{
+  made::Random random(6);
+  for (const double thickness : {1.0, 1e-1, 1e-2}) {
+    for (const double flatness : {1.0, 1e-3, 0.0})
+      for (int trial = 0; trial < 50; ++trial) {
+        const Eigen::Isometry3d truth = random.pose(5);
+        const Eigen::Matrix3d frame = random.pose(1).linear();
+        Points s, t;
+        AlignmentSums sums;
+        for (int i = 0; i < 30; ++i) {
+          const Eigen::Vector3d p = random.inCube(3) - Eigen::Vector3d::Constant(1.5);
+          s.push_back(frame * Eigen::Vector3d(p.x(),
+                                              thickness * p.y(),
+                                              thickness * flatness * p.z()));
+          t.push_back(truth * s.back());
+          sums.add(1, toVec3(s.back()), toVec3(t.back()));
+        }
+        Pose T;
+        ASSERT_TRUE(alignWeighted(sums, T));
+        EXPECT_LT((toIsometry(T).matrix() - truth.matrix()).norm(),
+                  1e-12 / (thickness * thickness));
+      }
+  }
+}
+
+TEST(AlignWeighted, DoesNotDependOnTheUnit)
+{
+  made::Random random(7);
+  const Eigen::Isometry3d truth = random.pose(1);
+  for (const double unit : {1e-12, 1.0, 1e12}) {
+    AlignmentSums sums;
+    for (int i = 0; i < 10; ++i) {
+      const Eigen::Vector3d s = random.inCube(3);
+      sums.add(1, toVec3(unit * s), toVec3(unit * (truth.linear() * s)));
+    }
+    Pose T;
+    ASSERT_TRUE(alignWeighted(sums, T));
+    EXPECT_LT((toIsometry(T).linear() - truth.linear()).norm(), 1e-12);
+  }
+}
+
 TEST(AlignWeighted, IgnoresPairsWithoutWeight)
 {
   made::Random random(4);
