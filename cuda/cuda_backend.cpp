@@ -3,6 +3,7 @@
 
 #include "cuda_backend.h"
 
+#include "first_order_graph.cuh"
 #include "stages.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -45,6 +46,7 @@ usableDevice()
     throw BackendError("backend cuda: the device has compute capability " +
                        std::to_string(major) + "." + std::to_string(minor) +
                        "; it takes 7.5 or later");
+  requireKernelImage();
   return device;
 }
 

@@ -139,5 +139,12 @@ firstOrderGraph(const Call& call, cudaStream_t stream)
   launch(call.filter.use ? &fillTile<true> : &fillTile<false>, shape, stream, call);
 }
 
+void
+requireKernelImage()
+{
+  cudaFuncAttributes attributes;
+  PCL_FLASHREG_CUDA(cudaFuncGetAttributes(&attributes, &fillTile<true>));
+}
+
 } // namespace cuda
 } // namespace pcl_flashreg

@@ -12,5 +12,10 @@ namespace cuda {
 void
 firstOrderGraph(const Call& call, cudaStream_t stream);
 
+/** \brief Asks for a kernel's attributes, which fails where this program holds no code for
+ * the device. \throws BackendError */
+void
+requireKernelImage();
+
 } // namespace cuda
 } // namespace pcl_flashreg

@@ -15,6 +15,10 @@ struct Options {
   /** \brief Marks in the stream for the time of every stage; without them, StageTimings
    * has the total alone. */
   bool stage_timings = true;
+  /** \brief Mean degree of the first-order graph that the exact form of stage 2 has room
+   * for at first. A denser graph costs a second attempt, once; memory for this one costs
+   * less than the bit matrix at the usual sizes. */
+  unsigned expected_degree = 128;
 };
 
 } // namespace cuda

@@ -22,10 +22,6 @@ namespace pcl_flashreg {
 namespace cuda {
 namespace {
 
-/** \brief Mean degree that the exact form has room for at first: memory for what is usual
- * costs less than the bit matrix, and who needs more gets it. */
-constexpr unsigned long long USUAL_DEGREE = 128;
-
 /** \brief Lists are addressed by 32 bits. */
 constexpr unsigned long long MOST_ENTRIES = std::numeric_limits<unsigned>::max();
 
@@ -64,7 +60,7 @@ Stages::begin(const Problem& problem,
   if (parameters.second_order == SecondOrder::Bounded)
     call_.exact = false;
   if (call_.exact)
-    planExact(USUAL_DEGREE * call_.size);
+    planExact(static_cast<unsigned long long>(options_.expected_degree) * call_.size);
   else
     planBounded();
   upload(problem);

@@ -16,15 +16,7 @@
 namespace pcl_flashreg {
 namespace {
 
-std::vector<double>
-readNumbers(const std::string& file)
-{
-  std::ifstream in(datasets::folder() + "/" + file);
-  std::vector<double> numbers;
-  for (double x; in >> x;)
-    numbers.push_back(x);
-  return numbers;
-}
+using datasets::readNumbers;
 
 class KittiPairs : public testing::TestWithParam<const char*> {};
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace pcl_flashreg {
 namespace datasets {
@@ -26,6 +27,17 @@ inline bool
 exists(const std::string& file)
 {
   return std::ifstream(folder() + "/" + file).good();
+}
+
+/** \brief All numbers of a text file in that folder. */
+inline std::vector<double>
+readNumbers(const std::string& file)
+{
+  std::ifstream in(folder() + "/" + file);
+  std::vector<double> numbers;
+  for (double x; in >> x;)
+    numbers.push_back(x);
+  return numbers;
 }
 
 } // namespace datasets
