@@ -42,8 +42,8 @@ protected:
     EXPECT_EQ(found.status, Status::Ok);
     EXPECT_EQ(found.inliers, expected_.estimate.inliers);
     ASSERT_FALSE(found.hypotheses.empty());
-    EXPECT_TRUE(samePose(found.hypotheses[0].pose,
-                         expected_.estimate.hypotheses[0].pose));
+    EXPECT_TRUE(
+        samePose(found.hypotheses[0].pose, expected_.estimate.hypotheses[0].pose));
   }
 
   made::NamedProblem named_;
@@ -53,7 +53,8 @@ protected:
 
 TEST_F(CudaBackendTest, WarmCallsAllocateNothingAndWaitOnce)
 {
-  for (const SecondOrder form : {SecondOrder::Exact, SecondOrder::Bounded, SecondOrder::Auto}) {
+  for (const SecondOrder form :
+       {SecondOrder::Exact, SecondOrder::Bounded, SecondOrder::Auto}) {
     named_.parameters.second_order = form;
     const auto backend = makeCudaBackend();
     run(*backend);
@@ -150,7 +151,8 @@ TEST_F(CudaBackendTest, RefusesDevicesThatAreTooOld)
   try {
     makeCudaBackend();
     FAIL();
-  } catch (const BackendError& error) {
+  }
+  catch (const BackendError& error) {
     EXPECT_NE(std::string(error.what()).find("7.0"), std::string::npos) << error.what();
   }
 }
@@ -175,7 +177,8 @@ TEST_F(CudaBackendTest, SurvivesAnyFailedAllocation)
       try {
         run(*backend);
         break; // so many are enough
-      } catch (const BackendError&) {
+      }
+      catch (const BackendError&) {
         ++failures;
       }
       cuda_emulation::device().allocations_left = 1000;
@@ -196,7 +199,8 @@ TEST_F(CudaBackendTest, SurvivesAnyFailedLaunch)
       run(*backend);
       EXPECT_GT(n, 7u);
       break;
-    } catch (const BackendError&) {
+    }
+    catch (const BackendError&) {
     }
     cuda_emulation::device().launches_left = 1000;
     expectRight(run(*backend));

@@ -183,9 +183,9 @@ TEST(CudaRivals, AgreeWithTheCpu)
   }
   Problem problem;
   pack(named, problem);
-  EXPECT_EQ(runOnDevice(ways().front(), problem, named.parameters)
-                .estimate.hypotheses.size(),
-            9u);
+  EXPECT_EQ(
+      runOnDevice(ways().front(), problem, named.parameters).estimate.hypotheses.size(),
+      9u);
 }
 
 TEST(CudaRealPair, AgreesWithTheCpu)

@@ -42,20 +42,14 @@ protected:
   {
     std::iota(host_.data(), host_.data() + VALUES, 0u);
     const std::size_t bytes = VALUES * sizeof(unsigned);
-    PCL_FLASHREG_CUDA(cudaMemcpyAsync(values_.data(),
-                                      host_.data(),
-                                      bytes,
-                                      cudaMemcpyHostToDevice,
-                                      stream_.get()));
+    PCL_FLASHREG_CUDA(cudaMemcpyAsync(
+        values_.data(), host_.data(), bytes, cudaMemcpyHostToDevice, stream_.get()));
     if (cooperative)
       launchCooperative(kernel, shape, stream_.get(), values_.data());
     else
       launch(kernel, shape, stream_.get(), values_.data());
-    PCL_FLASHREG_CUDA(cudaMemcpyAsync(host_.data(),
-                                      values_.data(),
-                                      bytes,
-                                      cudaMemcpyDeviceToHost,
-                                      stream_.get()));
+    PCL_FLASHREG_CUDA(cudaMemcpyAsync(
+        host_.data(), values_.data(), bytes, cudaMemcpyDeviceToHost, stream_.get()));
     stream_.synchronize();
     return {host_.data(), host_.data() + VALUES};
   }
@@ -251,7 +245,8 @@ TEST_F(CudaEmulation, ErrorsNameTheCallAndTheLine)
   try {
     buffer.reserve(1);
     FAIL();
-  } catch (const BackendError& error) {
+  }
+  catch (const BackendError& error) {
     const std::string message = error.what();
     EXPECT_NE(message.find("cudaErrorMemoryAllocation"), std::string::npos) << message;
     EXPECT_NE(message.find("memory.h:"), std::string::npos) << message;

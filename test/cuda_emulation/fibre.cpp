@@ -10,6 +10,7 @@
 #include <ucontext.h>
 #endif
 #if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
 #include <sanitizer/common_interface_defs.h>
 #endif
 
@@ -168,6 +169,8 @@ Fibre::start(void (*entry)(void*), void* argument)
   implementation_->argument = argument;
 #if defined(__SANITIZE_ADDRESS__)
   implementation_->fake_inside = nullptr;
+  // Functions that were never returned from have left their marks.
+  ASAN_UNPOISON_MEMORY_REGION(implementation_->stack.get(), STACK_BYTES);
 #endif
   implementation_->inside.prepare(implementation_->stack.get(), &Implementation::first);
 }
