@@ -32,8 +32,8 @@ if(PCL_FLASHREG_WITH_CUDA)
 endif()
 if(PCL_FLASHREG_CUDA)
   message(STATUS "pcl_flashreg: CUDA backend for ${CMAKE_CUDA_ARCHITECTURES}")
-else()
-  message(STATUS "pcl_flashreg: no CUDA backend")
+elseif(PCL_FLASHREG_WITH_CUDA)
+  message(NOTICE "pcl_flashreg: no CUDA compiler, so the CUDA backend is left out")
 endif()
 
 # Kernels, and the host's side of them.

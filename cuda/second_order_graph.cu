@@ -107,7 +107,7 @@ __launch_bounds__(LIST_WARPS* WARP) listRows(const Call call)
 }
 
 /** \brief Shared memory, with a row of the bit matrix behind it. */
-struct ScoreShared {
+struct alignas(16) ScoreShared {
   BlockScratch scratch;
   unsigned histogram[SHARED_BINS];
   unsigned best;
@@ -131,9 +131,14 @@ countShared(
       count += (bits[k / WARP] >> (k % WARP)) & 1;
     }
   else {
-    const unsigned* row = call.graph + static_cast<std::size_t>(v) * call.words;
-    for (unsigned w = laneIndex(); w < call.words; w += WARP)
-      count += __popc(bits[w] & row[w]);
+    const auto* row = reinterpret_cast<const uint4*>(
+        call.graph + static_cast<std::size_t>(v) * call.words);
+    const auto* mine = reinterpret_cast<const uint4*>(bits);
+    for (unsigned w = laneIndex(); w < call.words / 4; w += WARP) {
+      const uint4 a = mine[w], b = row[w];
+      count +=
+          __popc(a.x & b.x) + __popc(a.y & b.y) + __popc(a.z & b.z) + __popc(a.w & b.w);
+    }
   }
   return warpSum(count);
 }

@@ -8,6 +8,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 scripts/install_dependencies.sh --tests
 # A compiler that is newer than this source may warn of something new: errors in CI alone.
-cmake --preset ci --log-level=WARNING -DPCL_FLASHREG_WERROR="${CI:+ON}"
+cmake --preset ci --log-level=NOTICE -DPCL_FLASHREG_WERROR="${CI:+ON}"
 cmake --build --preset ci --parallel "$(nproc)"
 ctest --preset ci --parallel "$(nproc)"
