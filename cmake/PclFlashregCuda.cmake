@@ -3,37 +3,49 @@
 set(PCL_FLASHREG_WITH_CUDA AUTO CACHE STRING
   "Build the CUDA backend: ON, OFF, or AUTO for where nvcc is found")
 set_property(CACHE PCL_FLASHREG_WITH_CUDA PROPERTY STRINGS AUTO ON OFF)
-# Machine code for one of each generation since Turing; later ones run the last entry's
-# intermediate code.
-set(PCL_FLASHREG_CUDA_ARCHITECTURES 75-real 80-real 90-real 100-real 120 CACHE STRING
-  "Compute capabilities that kernels are compiled for, as in CMAKE_CUDA_ARCHITECTURES")
+set(PCL_FLASHREG_CUDA_ARCHITECTURES "" CACHE STRING
+  "Compute capabilities that kernels are compiled for, as in CMAKE_CUDA_ARCHITECTURES; empty for one of each generation since Turing")
 
 set(PCL_FLASHREG_CUDA OFF)
 if(PCL_FLASHREG_WITH_CUDA)
   if(NOT CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX})
     # Where NVIDIA's packages put it, though not on everybody's PATH.
-    find_program(PCL_FLASHREG_NVCC nvcc HINTS ENV CUDA_PATH PATHS /usr/local/cuda PATH_SUFFIXES bin)
+    find_program(PCL_FLASHREG_NVCC nvcc
+      HINTS ENV CUDA_PATH PATHS /usr/local/cuda PATH_SUFFIXES bin)
     mark_as_advanced(PCL_FLASHREG_NVCC)
     if(PCL_FLASHREG_NVCC)
       set(CMAKE_CUDA_COMPILER ${PCL_FLASHREG_NVCC})
     endif()
   endif()
-  set(CMAKE_CUDA_ARCHITECTURES ${PCL_FLASHREG_CUDA_ARCHITECTURES})
   set(CMAKE_CUDA_RUNTIME_LIBRARY Static)
   include(CheckLanguage)
   check_language(CUDA)
+  set(missing "a CUDA compiler")
   if(CMAKE_CUDA_COMPILER)
     enable_language(CUDA)
-    find_package(CUDAToolkit 12 REQUIRED)
-    set(PCL_FLASHREG_CUDA ON)
-  elseif(NOT PCL_FLASHREG_WITH_CUDA STREQUAL "AUTO")
-    message(FATAL_ERROR "PCL_FLASHREG_WITH_CUDA is ${PCL_FLASHREG_WITH_CUDA}, but there is no CUDA compiler")
+    find_package(CUDAToolkit)
+    if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 12 OR NOT CUDAToolkit_FOUND)
+      set(missing "CUDA 12 or later")
+    else()
+      set(PCL_FLASHREG_CUDA ON)
+    endif()
   endif()
-endif()
-if(PCL_FLASHREG_CUDA)
-  message(STATUS "pcl_flashreg: CUDA backend for ${CMAKE_CUDA_ARCHITECTURES}")
-elseif(PCL_FLASHREG_WITH_CUDA)
-  message(NOTICE "pcl_flashreg: no CUDA compiler, so the CUDA backend is left out")
+  if(PCL_FLASHREG_CUDA)
+    # The last entry's intermediate code is for whatever comes later.
+    set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 90)
+    if(CMAKE_CUDA_COMPILER_VERSION VERSION_GREATER_EQUAL 12.8)
+      set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 90-real 100-real 120)
+    endif()
+    if(PCL_FLASHREG_CUDA_ARCHITECTURES)
+      set(CMAKE_CUDA_ARCHITECTURES ${PCL_FLASHREG_CUDA_ARCHITECTURES})
+    endif()
+    message(STATUS "pcl_flashreg: CUDA backend for ${CMAKE_CUDA_ARCHITECTURES}")
+  elseif(PCL_FLASHREG_WITH_CUDA STREQUAL "AUTO")
+    message(NOTICE "pcl_flashreg: the CUDA backend is left out for want of ${missing}")
+  else()
+    message(FATAL_ERROR
+      "PCL_FLASHREG_WITH_CUDA is ${PCL_FLASHREG_WITH_CUDA}: it takes ${missing}")
+  endif()
 endif()
 
 # Kernels, and the host's side of them.
