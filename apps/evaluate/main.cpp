@@ -1,147 +1,150 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-// pcl_flashreg_evaluate: registers the pairs of a list and compares with their poses.
-
-#include "methods.h"
-#include "pairs.h"
-
-#include <pcl_flashreg/impl/stopwatch.hpp>
+// pcl_flashreg_evaluate: registers pairs with known poses and compares.
 
 #include "../io/error.h"
+#include "../io/file.h"
+#include "options.h"
+#include "results/report.h"
+#include "run/evaluation.h"
+#include "run/parts.h"
+#include "run/ranks.h"
+#include "run/split.h"
 
-#include <CLI/CLI.hpp>
+#include <pcl/console/print.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <map>
+#include <iostream>
+#include <new>
+#include <set>
 
 namespace pcl_flashreg::evaluate {
 namespace {
 
-struct Options {
-  std::string pairs_file;
-  std::string root;
-  std::vector<std::string> datasets;
-  std::string method = "flashreg";
-  double leaf = 0.05;
-  Criterion criterion;
-  std::size_t neighbors = 1;
-  unsigned threads = 0;
-  std::string second_order = "auto";
-  std::string score = "inliers";
-  std::string csv;
-};
+enum ExitStatus { kDone = 0, kUsage = 2, kFailure = 3 };
 
-Parameters
-parametersOf(const Options& options)
+void
+report(const Options& options, const Results& results)
 {
-  Parameters parameters = Parameters::fromResolution(options.leaf);
-  if (options.second_order == "exact")
-    parameters.second_order = SecondOrder::Exact;
-  else if (options.second_order == "bounded")
-    parameters.second_order = SecondOrder::Bounded;
-  if (options.score == "mae")
-    parameters.score_metric = ScoreMetric::Mae;
-  else if (options.score == "mse")
-    parameters.score_metric = ScoreMetric::Mse;
-  return parameters;
-}
-
-/** \brief The folder that the paths of the list start from. */
-std::string
-rootOf(const Options& options)
-{
-  if (!options.root.empty())
-    return options.root;
-  const std::size_t slash = options.pairs_file.rfind('/');
-  return slash == std::string::npos ? "." : options.pairs_file.substr(0, slash);
-}
-
-Input
-correspondencesOf(const Pair& pair, FeatureStore& store, const Options& options)
-{
-  if (!pair.correspondences.empty())
-    return readCorrespondences(rootOf(options) + "/" + pair.correspondences);
-  return matchClouds(store.get(pair.source),
-                     store.get(pair.target),
-                     options.neighbors,
-                     options.threads);
-}
-
-std::ofstream
-openCsv(const std::string& path)
-{
-  std::ofstream csv;
-  if (path.empty())
-    return csv;
-  csv.open(path);
-  if (!csv)
-    throw io::InputError(path + ": cannot be written");
-  writeCsvHeader(csv);
-  return csv;
-}
-
-int
-run(const Options& options)
-{
-  const Parameters parameters = parametersOf(options);
-  const Method method = makeMethod(options.method, parameters, options.threads);
-  const std::vector<Pair> pairs = readPairs(options.pairs_file);
-  std::ofstream csv = openCsv(options.csv);
-  FeatureStore store(rootOf(options), options.leaf, options.threads);
-  std::map<std::string, std::vector<Outcome>> outcomes;
-  for (const Pair& pair : pairs) {
-    const auto& wanted = options.datasets;
-    if (!wanted.empty() &&
-        std::find(wanted.begin(), wanted.end(), pair.dataset) == wanted.end())
-      continue;
-    const detail::Stopwatch matching;
-    const Input input = correspondencesOf(pair, store, options);
-    const double matching_ms = matching.milliseconds();
-    Outcome outcome = judge(
-        method(input), pair, input, parameters.inlier_distance, options.criterion);
-    outcome.matching_ms = matching_ms;
-    outcomes[pair.dataset].push_back(outcome);
-    if (csv.is_open())
-      writeCsvRow(csv, pair, outcome);
+  const std::vector<GroupSummary> groups = summarize(results);
+  if (options.json == "-")
+    std::cout << formatJson(results.config, groups) << std::flush;
+  else {
+    std::cout << formatTable(groups) << std::flush;
+    if (!options.json.empty())
+      io::writeFile(options.json, formatJson(results.config, groups));
   }
-  if (outcomes.empty())
-    throw io::InputError(options.pairs_file + ": holds no pair of these data sets");
-  for (const auto& [dataset, results] : outcomes)
-    printSummary(dataset, results);
-  return 0;
+}
+
+/** \brief Pairs of the shard that have no records yet. */
+std::vector<std::size_t>
+remaining(const Job& job, const Results& results)
+{
+  std::set<std::size_t> done;
+  for (const Record& record : results.records)
+    done.insert(record.pair);
+  std::vector<std::size_t> pairs;
+  for (const std::size_t pair : job.shard)
+    if (done.count(pair) == 0)
+      pairs.push_back(pair);
+  return pairs;
+}
+
+/** \brief One process, results in memory alone. */
+Results
+runInMemory(const Options& options, const Job& job)
+{
+  Results results{job.config, {}};
+  evaluatePairs(options, job, job.shard, options.quiet, [&](const auto& records) {
+    results.records.insert(results.records.end(), records.begin(), records.end());
+  });
+  return results;
+}
+
+/** \brief Results go to files as they come: one process appends to the file itself, each
+ * of several ranks to a part of its own, which the first one merges. */
+Results
+runWithFiles(const Options& options, const Job& job, const Ranks& ranks)
+{
+  const bool first = ranks.rank() == 0;
+  if (first) {
+    writeResults(options.csv, readWithParts(options.csv, job.config));
+    removeParts(options.csv);
+  }
+  ranks.wait();
+  const std::vector<std::size_t> pairs = partOf(
+      remaining(job, readResults(options.csv)), ranks.rank(), ranks.size());
+  ranks.wait();
+  std::string path = options.csv;
+  if (ranks.size() > 1) {
+    path = partPath(options.csv, ranks.rank());
+    writeResults(path, {job.config, {}});
+  }
+  ResultsAppender file(path);
+  evaluatePairs(options,
+                job,
+                pairs,
+                options.quiet || !first,
+                [&](const auto& records) { file.append(records); });
+  ranks.wait();
+  if (!first)
+    return {};
+  const Results results = readWithParts(options.csv, job.config);
+  writeResults(options.csv, results);
+  removeParts(options.csv);
+  return results;
 }
 
 void
-declareOptions(CLI::App& app, Options& options)
+evaluate(const Options& options, const Ranks& ranks)
 {
-  app.add_option("pairs", options.pairs_file, "List of pairs (pairs.tsv)")->required();
-  app.add_option("--root", options.root, "Folder of the clouds; default: of the list");
-  app.add_option("--dataset", options.datasets, "Only these data sets");
-  app.add_option("--method", options.method, "From correspondences to the pose")
-      ->check(CLI::IsMember(methodNames()))
-      ->capture_default_str();
-  app.add_option("--leaf", options.leaf, "Resolution: voxel size, and all lengths")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  app.add_option("--max-rotation", options.criterion.max_rotation, "Success: degrees")
-      ->capture_default_str();
-  app.add_option(
-         "--max-translation", options.criterion.max_translation, "Success: length")
-      ->capture_default_str();
-  app.add_option("--neighbors", options.neighbors, "Matches for each descriptor")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--second-order", options.second_order, "Form of stage 2")
-      ->check(CLI::IsMember({"auto", "exact", "bounded"}))
-      ->capture_default_str();
-  app.add_option("--score", options.score, "Rank poses by")
-      ->check(CLI::IsMember({"inliers", "mae", "mse"}))
-      ->capture_default_str();
-  app.add_option("--threads", options.threads, "CPU threads; 0 for all");
-  app.add_option("--csv", options.csv, "Write a row a pair to this file");
+  if (ranks.size() > 1 && options.csv.empty())
+    throw UsageError("several ranks need --csv FILE in a folder that all of them see");
+  const Job job = makeJob(options);
+  const Results results =
+      options.csv.empty() ? runInMemory(options, job) : runWithFiles(options, job, ranks);
+  if (ranks.rank() == 0)
+    report(options, results);
+}
+
+void
+merge(const Options& options)
+{
+  const Results results = mergeShards(options.merge);
+  if (!options.csv.empty())
+    writeResults(options.csv, results);
+  report(options, results);
+}
+
+ExitStatus
+fail(ExitStatus status, const std::string& message)
+{
+  std::cerr << "pcl_flashreg_evaluate: error: " << message << std::endl;
+  return status;
+}
+
+ExitStatus
+parseAndRun(int argc, char** argv, const Ranks& ranks)
+{
+  try {
+    const std::optional<Options> options = parseOptions(argc, argv);
+    ranks.wait(); // all have looked for the file before the first one makes it
+    if (options && options->merge.empty())
+      evaluate(*options, ranks);
+    else if (options && ranks.rank() == 0)
+      merge(*options);
+    return kDone;
+  }
+  catch (const UsageError& error) {
+    return fail(kUsage, error.what());
+  }
+  catch (const std::bad_alloc&) {
+    return fail(kFailure, "not enough memory");
+  }
+  catch (const std::exception& error) {
+    return fail(kFailure, error.what());
+  }
 }
 
 } // namespace
@@ -150,21 +153,10 @@ declareOptions(CLI::App& app, Options& options)
 int
 main(int argc, char** argv)
 {
-  using namespace pcl_flashreg;
-  CLI::App app{"Registers the pairs of a list and compares with their true poses"};
-  evaluate::Options options;
-  evaluate::declareOptions(app, options);
-  try {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    return evaluate::run(options);
-  }
-  catch (const std::exception& error) {
-    std::fprintf(stderr, "pcl_flashreg_evaluate: error: %s\n", error.what());
-    return 3;
-  }
+  using namespace pcl_flashreg::evaluate;
+  // PCL's own messages would stand between the user and ours.
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  const Ranks ranks;
+  const int status = parseAndRun(argc, argv, ranks);
+  return status == kDone ? status : ranks.abort(status);
 }

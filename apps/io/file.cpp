@@ -120,6 +120,8 @@ writeFile(const std::string& path, const std::string& bytes)
   const std::string final_path =
       fs::exists(status) ? fs::canonical(path, error).string() : path;
   const std::string temporary = final_path + ".part" + std::to_string(::getpid());
+  // A process of the same number that was killed may have left one.
+  ::unlink(temporary.c_str());
   {
     const Descriptor file(
         ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));

@@ -4,12 +4,14 @@
 #pragma once
 
 // A slow and obvious form of stages 1 to 4, after TurboReg's: dense matrices, all edges
-// sorted, rows scanned. It shares no code with the library; the tests compare with it.
+// sorted, rows scanned. It shares no code with the library; the tests compare with it, and
+// pcl_flashreg_evaluate has it as a method (dense_reference).
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <thread>
 #include <vector>
 
 namespace pcl_flashreg {
@@ -47,6 +49,21 @@ struct Matrix {
   }
 };
 
+/** \brief Calls body(i) for every row, each thread every n-th of them. */
+template <typename Body>
+void
+forRows(std::size_t rows, unsigned threads, const Body& body)
+{
+  std::vector<std::thread> workers;
+  for (unsigned first = 0; first < threads; ++first)
+    workers.emplace_back([=, &body] {
+      for (std::size_t i = first; i < rows; i += threads)
+        body(i);
+    });
+  for (std::thread& worker : workers)
+    worker.join();
+}
+
 /** \brief |a - b| of rows i and j of N x 3 floats, an operation at a time: the volatile
  * keeps the compiler from contracting or widening any of them. */
 inline float
@@ -67,28 +84,36 @@ inline Matrix<char>
 firstOrderGraph(const std::vector<float>& source,
                 const std::vector<float>& target,
                 float tau,
-                float r)
+                float r,
+                unsigned threads = 1)
 {
   Matrix<char> graph(source.size() / 3);
-  for (std::size_t i = 0; i < graph.n; ++i)
+  forRows(graph.n, threads, [&](std::size_t i) {
     for (std::size_t j = 0; j < graph.n; ++j) {
       const float ls = distance(source, i, j), lt = distance(target, i, j);
       volatile float difference = ls - lt;
       volatile float sum = ls + lt;
       graph.at(i, j) = i != j && std::abs(difference) < tau && sum > r;
     }
+  });
   return graph;
 }
 
 /** \brief Eq. (sog), whole matrix. */
 inline Matrix<int>
-exactScores(const Matrix<char>& graph)
+exactScores(const Matrix<char>& graph, unsigned threads = 1)
 {
   Matrix<int> scores(graph.n);
-  for (std::size_t i = 0; i < graph.n; ++i)
-    for (std::size_t j = 0; j < graph.n; ++j)
-      for (std::size_t k = 0; graph.at(i, j) && k < graph.n; ++k)
-        scores.at(i, j) += graph.at(i, k) && graph.at(k, j);
+  forRows(graph.n, threads, [&](std::size_t i) {
+    for (std::size_t j = 0; j < graph.n; ++j) {
+      if (!graph.at(i, j))
+        continue;
+      int common = 0;
+      for (std::size_t k = 0; k < graph.n; ++k)
+        common += graph.at(i, k) & graph.at(j, k); // the graph is symmetric
+      scores.at(i, j) = common;
+    }
+  });
   return scores;
 }
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "../datasets/pair.h"
+#include "described_cloud.h"
+#include "feature_cache.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl_flashreg::evaluate {
+
+/** \brief Features of clouds, computed once for all the pairs that a cloud belongs to and
+ * let go after the last of them. */
+class FeatureStore {
+public:
+  using Cloud = std::shared_ptr<const DescribedCloud>;
+
+  /** \param[in] cache_folder keeps features on disk; empty for not at all
+   * \throws io::InputError if the cache's folder cannot be made
+   */
+  FeatureStore(std::string root,
+               double leaf,
+               unsigned threads,
+               const std::string& cache_folder);
+
+  /** \brief Announces a pair that get() will be called for. */
+  void
+  expect(const Pair& pair);
+
+  /** \throws io::InputError, std::invalid_argument (see computeFpfh()) */
+  Cloud
+  get(const std::string& path);
+
+  /** \brief The pair is done: clouds that no other announced pair needs are dropped. */
+  void
+  release(const Pair& pair);
+
+  /** \brief Clouds held at the moment. */
+  std::size_t
+  size() const
+  {
+    return clouds_.size();
+  }
+
+private:
+  Cloud
+  describe(const std::string& path) const;
+
+  std::string root_;
+  double leaf_;
+  unsigned threads_;
+  std::optional<FeatureCache> cache_;
+  std::map<std::string, std::size_t> uses_;
+  std::map<std::string, Cloud> clouds_;
+};
+
+} // namespace pcl_flashreg::evaluate

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "record_rows.h"
+
+#include "../../io/error.h"
+#include "../../io/text.h"
+#include "csv.h"
+
+namespace pcl_flashreg::evaluate {
+namespace {
+
+/** \brief Takes the cells of a row one after the other. */
+class CellReader {
+public:
+  CellReader(const std::vector<std::string>& cells,
+             const std::vector<std::string>& columns)
+      : cells_(cells), columns_(columns)
+  {
+    if (cells.size() != columns.size())
+      throw io::InputError("found " + std::to_string(cells.size()) +
+                           " columns, expected " + std::to_string(columns.size()));
+  }
+
+  const std::string&
+  text()
+  {
+    return cells_[next_++];
+  }
+
+  std::size_t
+  count()
+  {
+    std::size_t value = 0;
+    if (!io::parseUnsigned(cells_[next_], value))
+      fail("a count");
+    ++next_;
+    return value;
+  }
+
+  bool
+  flag()
+  {
+    const std::size_t value = count();
+    if (value > 1) {
+      --next_;
+      fail("0 or 1");
+    }
+    return value == 1;
+  }
+
+  double
+  number()
+  {
+    double value = 0;
+    if (!io::parseDouble(cells_[next_], value))
+      fail("a number");
+    ++next_;
+    return value;
+  }
+
+private:
+  [[noreturn]] void
+  fail(const std::string& expected) const
+  {
+    throw io::InputError("column " + columns_[next_] + ": '" + cells_[next_] +
+                         "' is not " + expected);
+  }
+
+  const std::vector<std::string>& cells_;
+  const std::vector<std::string>& columns_;
+  std::size_t next_ = 0;
+};
+
+} // namespace
+
+std::vector<std::string>
+resultColumns()
+{
+  return {"pair",           "dataset",           "scene",
+          "source",         "target",            "method",
+          "correspondences", "inlier_ratio",     "found",
+          "success",        "trusted",           "confidence",
+          "inliers",        "rotation_error_deg", "translation_error"};
+}
+
+std::vector<std::string>
+timeColumns()
+{
+  std::vector<std::string> columns = {
+      "pair", "method", "features_ms", "matching_ms", "estimation_ms"};
+  for (const Stage& stage : STAGES)
+    columns.push_back(std::string(stage.name) + "_ms");
+  return columns;
+}
+
+std::vector<std::string>
+resultCells(const Record& r)
+{
+  const auto flag = [](bool value) { return std::string(value ? "1" : "0"); };
+  return {std::to_string(r.pair),
+          r.dataset,
+          r.scene,
+          r.source,
+          r.target,
+          r.method,
+          std::to_string(r.correspondences),
+          toText(r.inlier_ratio),
+          flag(r.found),
+          flag(r.success),
+          flag(r.trusted),
+          toText(r.confidence),
+          std::to_string(r.inliers),
+          toText(r.rotation_error),
+          toText(r.translation_error)};
+}
+
+std::vector<std::string>
+timeCells(const Record& r)
+{
+  std::vector<std::string> cells = {std::to_string(r.pair),
+                                    r.method,
+                                    toText(r.times.features),
+                                    toText(r.times.matching),
+                                    toText(r.times.estimation)};
+  for (const Stage& stage : STAGES)
+    cells.push_back(r.times.stages ? toText((*r.times.stages).*stage.milliseconds)
+                                   : "");
+  return cells;
+}
+
+Record
+recordFromCells(const std::vector<std::string>& cells)
+{
+  const std::vector<std::string> columns = resultColumns();
+  CellReader reader(cells, columns);
+  Record r;
+  r.pair = reader.count();
+  r.dataset = reader.text();
+  r.scene = reader.text();
+  r.source = reader.text();
+  r.target = reader.text();
+  r.method = reader.text();
+  r.correspondences = reader.count();
+  r.inlier_ratio = reader.number();
+  r.found = reader.flag();
+  r.success = reader.flag();
+  r.trusted = reader.flag();
+  r.confidence = reader.number();
+  r.inliers = reader.count();
+  r.rotation_error = reader.number();
+  r.translation_error = reader.number();
+  return r;
+}
+
+Times
+timesFromCells(const std::vector<std::string>& cells,
+               std::size_t& pair,
+               std::string& method)
+{
+  const std::vector<std::string> columns = timeColumns();
+  CellReader reader(cells, columns);
+  Times times;
+  pair = reader.count();
+  method = reader.text();
+  times.features = reader.number();
+  times.matching = reader.number();
+  times.estimation = reader.number();
+  if (cells.back().empty())
+    return times;
+  times.stages.emplace();
+  for (const Stage& stage : STAGES)
+    (*times.stages).*stage.milliseconds = reader.number();
+  times.stages->total = times.estimation;
+  return times;
+}
+
+} // namespace pcl_flashreg::evaluate

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "summary.h"
+
+#include <string>
+
+namespace pcl_flashreg::evaluate {
+
+/** \brief A table for people. */
+std::string
+formatTable(const std::vector<GroupSummary>& groups);
+
+/** \brief The same, and the configuration, for programs. */
+std::string
+formatJson(const Config& config, const std::vector<GroupSummary>& groups);
+
+} // namespace pcl_flashreg::evaluate
