@@ -73,8 +73,8 @@ runWithFiles(const Options& options, const Job& job, const Ranks& ranks)
     removeParts(options.csv);
   }
   ranks.wait();
-  const std::vector<std::size_t> pairs = partOf(
-      remaining(job, readResults(options.csv)), ranks.rank(), ranks.size());
+  const std::vector<std::size_t> pairs =
+      partOf(remaining(job, readResults(options.csv)), ranks.rank(), ranks.size());
   ranks.wait();
   std::string path = options.csv;
   if (ranks.size() > 1) {
@@ -82,11 +82,9 @@ runWithFiles(const Options& options, const Job& job, const Ranks& ranks)
     writeResults(path, {job.config, {}});
   }
   ResultsAppender file(path);
-  evaluatePairs(options,
-                job,
-                pairs,
-                options.quiet || !first,
-                [&](const auto& records) { file.append(records); });
+  evaluatePairs(options, job, pairs, options.quiet || !first, [&](const auto& records) {
+    file.append(records);
+  });
   ranks.wait();
   if (!first)
     return {};
@@ -102,8 +100,8 @@ evaluate(const Options& options, const Ranks& ranks)
   if (ranks.size() > 1 && options.csv.empty())
     throw UsageError("several ranks need --csv FILE in a folder that all of them see");
   const Job job = makeJob(options);
-  const Results results =
-      options.csv.empty() ? runInMemory(options, job) : runWithFiles(options, job, ranks);
+  const Results results = options.csv.empty() ? runInMemory(options, job)
+                                              : runWithFiles(options, job, ranks);
   if (ranks.rank() == 0)
     report(options, results);
 }

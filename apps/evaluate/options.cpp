@@ -78,8 +78,9 @@ declareMethod(CLI::App& app, Options& options)
   app.add_option("--method", options.methods, "Methods, separated by commas; see below")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option(
-         "--leaf", options.leaf, "Resolution: voxel size, and all lengths; default 0.05")
+  app.add_option("--leaf",
+                 options.leaf,
+                 "Resolution: voxel size, and all lengths; default 0.05")
       ->check(CLI::PositiveNumber);
   app.add_option("--max-rotation", options.max_rotation, "Right: degrees; default 15")
       ->check(CLI::PositiveNumber);
@@ -100,16 +101,19 @@ declareMethod(CLI::App& app, Options& options)
 void
 declareOutput(CLI::App& app, Options& options, std::string& shard)
 {
-  app.add_option("--csv",
-                 options.csv,
-                 "Write a row a pair and method to this file as they come, and times to "
-                 "FILE.times.csv beside it");
-  app.add_option("--json", options.json, "Write the summary to this file; - for stdout");
+  app.add_option(
+      "--csv",
+      options.csv,
+      "Write a row a pair and method to this file as they come, and times to "
+      "FILE.times.csv beside it");
+  app.add_option(
+      "--json", options.json, "Write the summary to this file; - for stdout");
   app.add_flag("--resume", options.resume, "Go on with a --csv that was not finished");
   app.add_option("--shard", shard, "i/n: only the i-th of n parts, from 1");
-  app.add_option("--merge",
-                 options.merge,
-                 "Put the --csv files of all shards together (one file: sum it up again)");
+  app.add_option(
+      "--merge",
+      options.merge,
+      "Put the --csv files of all shards together (one file: sum it up again)");
   app.add_flag("--quiet", options.quiet, "No progress");
 }
 
@@ -147,7 +151,8 @@ void
 check(const Options& options)
 {
   if (options.merge.empty() == options.data.empty())
-    throw UsageError("either data to evaluate or --merge is needed (--help tells more)");
+    throw UsageError(
+        "either data to evaluate or --merge is needed (--help tells more)");
   if (options.resume && options.csv.empty())
     throw UsageError("--resume needs the --csv that it is to go on with");
   if (!options.csv.empty() && std::filesystem::exists(options.csv) && !options.resume &&

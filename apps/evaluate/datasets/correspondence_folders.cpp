@@ -34,10 +34,8 @@ turboRegFiles(const std::string& name)
   if (!std::regex_match(name, part, pattern))
     return std::nullopt;
   const std::string id = part[1], kpts = id + part[2].str() + "_kpts_";
-  return Files{kpts + "{src,dst}.txt",
-               id + "_trans.txt",
-               kpts + "src.txt",
-               kpts + "dst.txt"};
+  return Files{
+      kpts + "{src,dst}.txt", id + "_trans.txt", kpts + "src.txt", kpts + "dst.txt"};
 }
 
 /** \brief Whether MAC's list of the folder, where there is one, names the pair. */

@@ -26,9 +26,10 @@ openFolder(const std::string& path, const DataSetOptions& options)
     data = readCorrespondenceFolders(path);
   if (data.pairs.empty())
     throw io::InputError(
-        path + ": holds none of gt.log (3DMatch), sequences/ and poses/ (KITTI), "
-               "*_kpts_src.txt with *_trans.txt (TurboReg), *corr*.txt with *GTmat*.txt "
-               "(MAC)");
+        path +
+        ": holds none of gt.log (3DMatch), sequences/ and poses/ (KITTI), "
+        "*_kpts_src.txt with *_trans.txt (TurboReg), *corr*.txt with *GTmat*.txt "
+        "(MAC)");
   return data;
 }
 
@@ -44,8 +45,8 @@ openDataSet(const std::string& path, const DataSetOptions& options)
     data = openFolder(path, options);
   else {
     data.pairs = readPairList(path);
-    data.root = options.root.empty() ? fs::path(path).parent_path().string()
-                                     : options.root;
+    data.root =
+        options.root.empty() ? fs::path(path).parent_path().string() : options.root;
   }
   if (data.root.empty())
     data.root = ".";

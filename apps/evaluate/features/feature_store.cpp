@@ -56,8 +56,7 @@ FeatureStore::describe(const std::string& path) const
     if (const auto cached = cache_->load(key))
       return std::make_shared<DescribedCloud>(*cached);
   }
-  const io::ShiftedCloud cloud =
-      io::toPclCloud(io::coordinates(io::readCloud(path)));
+  const io::ShiftedCloud cloud = io::toPclCloud(io::coordinates(io::readCloud(path)));
   const auto described = std::make_shared<DescribedCloud>();
   const detail::Stopwatch stopwatch;
   try {

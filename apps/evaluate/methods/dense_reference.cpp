@@ -96,7 +96,8 @@ align(const Points& source, const Points& target, const Eigen::VectorXd& weights
                             (target.colwise() - t).transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
       H, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1, 1, (svd.matrixV() * svd.matrixU().transpose()).determinant());
+  Eigen::Vector3d signs(
+      1, 1, (svd.matrixV() * svd.matrixU().transpose()).determinant());
   Eigen::Isometry3d T;
   T.linear() = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
   T.translation() = t - T.linear() * s;
@@ -183,8 +184,8 @@ run(const Parameters& p, unsigned threads, const Correspondences& given)
                                                 threads);
   const auto scores = reference::exactScores(graph, threads);
   const auto pivots = reference::pivots(scores, static_cast<std::size_t>(p.pivots));
-  const auto cliques = reference::cliques(
-      scores, pivots, static_cast<std::size_t>(p.cliques_per_pivot));
+  const auto cliques =
+      reference::cliques(scores, pivots, static_cast<std::size_t>(p.cliques_per_pivot));
   Eigen::Isometry3d T;
   if (best(points, cliques, p.inlier_distance, threads, T)) {
     answer.inliers = static_cast<std::size_t>(refine(points, p, T));

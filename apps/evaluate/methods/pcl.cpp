@@ -82,8 +82,8 @@ runPrerejective(double leaf, const DescribedCloud& source, const DescribedCloud&
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
   answer.found = align.hasConverged();
   answer.trusted = answer.found;
-  answer.T_target_source = {
-      R, T.topRightCorner<3, 1>() + target.shift - R * source.shift};
+  answer.T_target_source = {R,
+                            T.topRightCorner<3, 1>() + target.shift - R * source.shift};
   answer.inliers = align.getInliers().size();
   answer.confidence = static_cast<double>(answer.inliers);
   return answer;

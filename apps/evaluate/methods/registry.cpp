@@ -14,14 +14,15 @@ methods()
 {
   static const std::vector<MethodEntry> all = [] {
     std::vector<MethodEntry> entries;
-    for (const auto& family : {flashregMethods(),
-                               denseReferenceMethods(),
-                               pclMethods(),
+    for (const auto& family : {
+             flashregMethods(),
+             denseReferenceMethods(),
+             pclMethods(),
 #ifdef PCL_FLASHREG_WITH_OPEN3D
-                               open3dMethods(),
+             open3dMethods(),
 #endif
 #ifdef PCL_FLASHREG_WITH_TEASER
-                               teaserMethods(),
+             teaserMethods(),
 #endif
          })
       entries.insert(entries.end(), family.begin(), family.end());

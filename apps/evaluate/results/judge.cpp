@@ -16,10 +16,9 @@ inlierRatio(const Correspondences& correspondences,
     const Eigen::Map<const Eigen::Vector3d> t(&correspondences.target[3 * i]);
     inliers += (T.rotation * s + T.translation - t).norm() < inlier_distance;
   }
-  return correspondences.size() == 0
-             ? 0
-             : static_cast<double>(inliers) /
-                   static_cast<double>(correspondences.size());
+  return correspondences.size() == 0 ? 0
+                                     : static_cast<double>(inliers) /
+                                           static_cast<double>(correspondences.size());
 }
 
 void

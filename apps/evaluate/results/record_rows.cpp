@@ -77,11 +77,21 @@ private:
 std::vector<std::string>
 resultColumns()
 {
-  return {"pair",           "dataset",           "scene",
-          "source",         "target",            "method",
-          "correspondences", "inlier_ratio",     "found",
-          "success",        "trusted",           "confidence",
-          "inliers",        "rotation_error_deg", "translation_error"};
+  return {"pair",
+          "dataset",
+          "scene",
+          "source",
+          "target",
+          "method",
+          "correspondences",
+          "inlier_ratio",
+          "found",
+          "success",
+          "trusted",
+          "confidence",
+          "inliers",
+          "rotation_error_deg",
+          "translation_error"};
 }
 
 std::vector<std::string>

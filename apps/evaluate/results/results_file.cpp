@@ -49,10 +49,10 @@ wholeLines(std::string_view bytes)
 Config
 parseConfig(std::string_view line)
 {
-  const auto config = Config::parse(
-      line.substr(std::min<std::size_t>(2, line.size())), nullptr, false);
-  if (line.substr(0, 2) != "# " || !config.is_object() ||
-      !config.contains("methods") || !config.contains("pairs"))
+  const auto config =
+      Config::parse(line.substr(std::min<std::size_t>(2, line.size())), nullptr, false);
+  if (line.substr(0, 2) != "# " || !config.is_object() || !config.contains("methods") ||
+      !config.contains("pairs"))
     throw io::InputError("line 1: is not the configuration of an evaluation");
   return config;
 }
@@ -136,8 +136,8 @@ readResults(const std::string& path)
 void
 writeResults(const std::string& path, const Results& results)
 {
-  std::string rows = "# " + results.config.dump() + '\n' + joinCsv(resultColumns()) +
-                     '\n',
+  std::string rows =
+                  "# " + results.config.dump() + '\n' + joinCsv(resultColumns()) + '\n',
               times = joinCsv(timeColumns()) + '\n';
   for (const Record& record : results.records) {
     rows += joinCsv(resultCells(record)) + '\n';

@@ -161,12 +161,12 @@ summarize(const Results& results)
 {
   const auto all = [](const Record&) { return true; };
   std::vector<GroupSummary> groups;
-  const auto datasets =
-      namesOf(results, [](const Record& r) { return r.dataset; }, all);
+  const auto datasets = namesOf(
+      results, [](const Record& r) { return r.dataset; }, all);
   for (const std::string& dataset : datasets) {
     const auto inDataset = [&](const Record& r) { return r.dataset == dataset; };
-    const auto scenes =
-        namesOf(results, [](const Record& r) { return r.scene; }, inDataset);
+    const auto scenes = namesOf(
+        results, [](const Record& r) { return r.scene; }, inDataset);
     for (const std::string& scene : scenes)
       if (scenes.size() > 1)
         groups.push_back(summarizeGroup(results, dataset, scene, [&](const Record& r) {

@@ -54,18 +54,15 @@ row(const MethodSummary& m)
 std::string
 times(const MethodSummary& m)
 {
-  std::string text =
-      print("  ms, %s: features %.1f (%.1f), matching %.2f (%.2f)",
-            m.method.c_str(),
-            m.features_ms.median,
-            m.features_ms.p95,
-            m.matching_ms.median,
-            m.matching_ms.p95);
+  std::string text = print("  ms, %s: features %.1f (%.1f), matching %.2f (%.2f)",
+                           m.method.c_str(),
+                           m.features_ms.median,
+                           m.features_ms.p95,
+                           m.matching_ms.median,
+                           m.matching_ms.p95);
   for (const StageSpread& stage : m.stages_ms)
-    text += print(", %s %.2f (%.2f)",
-                  stage.name.c_str(),
-                  stage.spread.median,
-                  stage.spread.p95);
+    text += print(
+        ", %s %.2f (%.2f)", stage.name.c_str(), stage.spread.median, stage.spread.p95);
   return text + '\n';
 }
 

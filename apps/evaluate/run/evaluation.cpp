@@ -80,9 +80,8 @@ evaluatePair(std::size_t number,
   for (const NamedMethod& method : methods) {
     record.method = method.name;
     record.times = prepared.times;
-    const Answer answer = record.correspondences < LEAST_CORRESPONDENCES
-                              ? Answer()
-                              : method.run(problem);
+    const Answer answer =
+        record.correspondences < LEAST_CORRESPONDENCES ? Answer() : method.run(problem);
     judge(answer, pair.T_target_source, job.data.criterion, record);
     records.push_back(record);
   }

@@ -20,6 +20,8 @@ partsOf(const std::string& csv)
   std::vector<std::string> parts;
   const fs::path path = fs::absolute(csv);
   const std::string prefix = path.filename().string() + ".rank";
+  if (!fs::is_directory(path.parent_path()))
+    return parts; // writing the file will say so
   for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path())) {
     const std::string name = entry.path().filename().string();
     const bool is_part =
@@ -103,8 +105,9 @@ mergeShards(const std::vector<std::string>& files)
   for (std::size_t pair = 0; pair < total; ++pair)
     if (pairs.count(pair) == 0)
       throw io::InputError(std::to_string(total - pairs.size()) + " of " +
-                           std::to_string(total) + " pairs are in no file, first pair " +
-                           std::to_string(pair) + ": finish the shards with --resume");
+                           std::to_string(total) +
+                           " pairs are in no file, first pair " + std::to_string(pair) +
+                           ": finish the shards with --resume");
   sortRecords(all.config, all.records);
   return all;
 }

@@ -20,12 +20,8 @@ clockText(double seconds)
   if (all < 3600)
     std::snprintf(text, sizeof(text), "%lu:%02lu", all / 60, all % 60);
   else
-    std::snprintf(text,
-                  sizeof(text),
-                  "%lu:%02lu:%02lu",
-                  all / 3600,
-                  all / 60 % 60,
-                  all % 60);
+    std::snprintf(
+        text, sizeof(text), "%lu:%02lu:%02lu", all / 3600, all / 60 % 60, all % 60);
   return text;
 }
 
@@ -64,8 +60,8 @@ Progress::step()
 {
   ++done_;
   const auto now = Clock::now();
-  const auto pause = terminal_ ? std::chrono::milliseconds(100)
-                               : std::chrono::milliseconds(30000);
+  const auto pause =
+      terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(30000);
   if (!quiet_ && (now - printed_ >= pause || done_ == total_))
     print(now);
 }

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+// Features: kept as long as a pair needs them, and on disk.
+
+#include "evaluate/features/correspondences.h"
+#include "evaluate/features/feature_store.h"
+#include "evaluate_support.h"
+
+namespace pcl_flashreg::evaluate {
+namespace {
+
+constexpr double LEAF = 0.2;
+
+void
+expectSame(const DescribedCloud& a, const DescribedCloud& b)
+{
+  ASSERT_EQ(a.keypoints.points->size(), b.keypoints.points->size());
+  EXPECT_EQ(a.shift, b.shift);
+  for (std::size_t i = 0; i < a.keypoints.points->size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      ASSERT_EQ((*a.keypoints.points)[i].data[axis],
+                (*b.keypoints.points)[i].data[axis]);
+    for (int k = 0; k < 33; ++k)
+      ASSERT_EQ((*a.keypoints.features)[i].histogram[k],
+                (*b.keypoints.features)[i].histogram[k]);
+  }
+}
+
+class EvaluateFeatures : public EvaluateTest {
+protected:
+  void
+  SetUp() override
+  {
+    EvaluateTest::SetUp();
+    writeFragments("room");
+  }
+
+  FeatureStore::Cloud
+  describe(double leaf = LEAF) const
+  {
+    return FeatureStore(path(), leaf, 2, path("cache")).get("room/cloud_bin_0.pcd");
+  }
+
+  std::vector<fs::path>
+  cached() const
+  {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(path("cache")))
+      files.push_back(entry.path());
+    return files;
+  }
+
+  std::string
+  bytes() const
+  {
+    return read("cache/" + cached().at(0).filename().string());
+  }
+
+  void
+  overwrite(const std::string& text) const
+  {
+    write("cache/" + cached().at(0).filename().string(), text);
+  }
+};
+
+TEST_F(EvaluateFeatures, areDroppedAfterTheLastPairThatNeedsThem)
+{
+  FeatureStore store(path(), LEAF, 2, "");
+  Pair pair, self;
+  pair.source = "room/cloud_bin_1.pcd";
+  pair.target = self.source = self.target = "room/cloud_bin_0.pcd";
+  for (const Pair& p : {pair, self})
+    store.expect(p);
+  const auto first = store.get(pair.target);
+  store.get(pair.source);
+  EXPECT_EQ(store.size(), 2u);
+  store.release(pair);
+  EXPECT_EQ(store.size(), 1u);
+  EXPECT_EQ(store.get(self.source), first) << "computed again";
+  store.release(self);
+  EXPECT_EQ(store.size(), 0u);
+}
+
+TEST_F(EvaluateFeatures, comeBackFromTheCache)
+{
+  const auto computed = describe();
+  ASSERT_GT(computed->keypoints.points->size(), 100u);
+  ASSERT_EQ(cached().size(), 1u);
+  const auto loaded = describe();
+  expectSame(*computed, *loaded);
+  // Even the time: it is what computing took, not what reading did.
+  EXPECT_EQ(loaded->features_ms, computed->features_ms);
+}
+
+TEST_F(EvaluateFeatures, theCacheIsReallyRead)
+{
+  const auto computed = describe();
+  // What is cached under the key of this cloud is believed: here, another cloud's.
+  const std::string key = cached().at(0).filename().string();
+  fs::copy_file(path("room/cloud_bin_1.pcd"),
+                path("room/cloud_bin_0.pcd"),
+                fs::copy_options::overwrite_existing);
+  const auto other = describe();
+  ASSERT_EQ(cached().size(), 2u) << "other points, other key";
+  EXPECT_NE(other->keypoints.points->size(), computed->keypoints.points->size());
+  for (const fs::path& file : cached())
+    if (file.filename() != key)
+      fs::copy_file(
+          path("cache/" + key), file, fs::copy_options::overwrite_existing);
+  expectSame(*describe(), *computed);
+}
+
+TEST_F(EvaluateFeatures, anotherLeafIsAnotherKey)
+{
+  const auto computed = describe();
+  const auto coarser = describe(0.3);
+  EXPECT_EQ(cached().size(), 2u);
+  EXPECT_LT(coarser->keypoints.points->size(), computed->keypoints.points->size());
+}
+
+TEST_F(EvaluateFeatures, damagedFilesAreComputedAgain)
+{
+  const auto computed = describe();
+  const std::string good = bytes();
+  std::string flipped = good;
+  flipped[good.size() / 2] = static_cast<char>(flipped[good.size() / 2] ^ 1);
+  for (const std::string& damaged : {flipped,
+                                     good.substr(0, good.size() - 100),
+                                     good.substr(0, 5),
+                                     std::string(),
+                                     std::string("something else"),
+                                     good + "more"}) {
+    overwrite(damaged);
+    expectSame(*describe(), *computed);
+    EXPECT_EQ(bytes().size(), good.size()) << "is not mended";
+  }
+}
+
+TEST_F(EvaluateFeatures, whatAKilledProcessLeftIsNoObstacle)
+{
+  describe();
+  const std::string key = cached().at(0).filename().string();
+  fs::remove(path("cache/" + key));
+  write("cache/" + key + ".part" + std::to_string(::getpid()), "half");
+  describe();
+  ASSERT_EQ(cached().size(), 1u);
+  EXPECT_EQ(cached().at(0).filename().string(), key);
+}
+
+TEST_F(EvaluateFeatures, errorsNameTheFile)
+{
+  FeatureStore store(path(), 1e-9, 2, "");
+  EXPECT_EQ(complaintOf([&] { store.get("room/cloud_bin_0.pcd"); })
+                .find(path("room/cloud_bin_0.pcd") + ": "),
+            0u);
+  EXPECT_NE(complaintOf([&] { store.get("room/none.pcd"); }).find("none.pcd"),
+            std::string::npos);
+  write("file", "x");
+  EXPECT_NE(complaintOf([&] { FeatureStore(path(), 1, 1, path("file")); }).find("file"),
+            std::string::npos);
+}
+
+TEST_F(EvaluateFeatures, correspondencesAreReadFromOneFileOrTwo)
+{
+  write("one.txt", "1 2 3 4 5 6\n7 8 9 10 11 12\n");
+  write("two_src.txt", "1 2 3\n7 8 9\n");
+  write("two_dst.txt", "4 5 6\n10 11 12\n");
+  for (const char* name : {"one.txt", "two_{src,dst}.txt"}) {
+    const Correspondences read = readCorrespondences(path(name));
+    EXPECT_EQ(read.source, (std::vector<double>{1, 2, 3, 7, 8, 9}));
+    EXPECT_EQ(read.target, (std::vector<double>{4, 5, 6, 10, 11, 12}));
+    EXPECT_TRUE(read.ranks.empty());
+  }
+  const auto complaint = [&](const std::string& name) {
+    return complaintOf([&] { readCorrespondences(path(name)); });
+  };
+  write("one.txt", "1 2 3 4 5 6\n7 8 nine 10 11 12\n");
+  EXPECT_EQ(complaint("one.txt").find(path("one.txt") + ": line 2: "), 0u);
+  write("one.txt", "1 2\n");
+  EXPECT_EQ(complaint("one.txt").find(path("one.txt") + ": holds index pairs"), 0u);
+  write("two_dst.txt", "4 5 6\n");
+  EXPECT_EQ(complaint("two_{src,dst}.txt").find(path("two_{src,dst}.txt") + ": "), 0u);
+}
+
+} // namespace
+} // namespace pcl_flashreg::evaluate
