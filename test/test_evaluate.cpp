@@ -92,7 +92,7 @@ TEST_F(Evaluate, registersAThreeDMatchTree)
   writeFragments("kitchen");
   write("kitchen/gt.log", "0 1 2\n" + bundledPose());
   const ProgramRun run = evaluate(". --method flashreg,flashreg_exact,flashreg_bounded,"
-                           "dense_reference --json - --csv r.csv --cache cache");
+                                  "dense_reference --json - --csv r.csv --cache cache");
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   const auto& group = json["groups"][0];
@@ -168,6 +168,24 @@ TEST_F(Evaluate, prerejectiveTakesClouds)
   expectFailure("scene --method pcl_prerejective", 2, "needs clouds");
 }
 
+TEST_F(Evaluate, resultsCanBeDrawn)
+{
+  if (std::system("python3 -c 'import matplotlib' 2>/dev/null") != 0)
+    GTEST_SKIP() << "no python3 with matplotlib";
+  writeMacFolder("scene", 12, 300, 4);
+  ASSERT_EQ(evaluate("scene --csv r.csv --method flashreg,dense_reference").status, 0);
+  const std::string draw = "cd '" + folder_.string() +
+                           "' && python3 '" PCL_FLASHREG_SOURCE_DIR
+                           "/scripts/plot_evaluation.py' ";
+  ASSERT_EQ(std::system((draw + "r.csv r.png && " + draw + "r.csv r.svg").c_str()), 0);
+  EXPECT_EQ(read("r.png").substr(1, 3), "PNG");
+  const std::string svg = read("r.svg");
+  for (const char* text : {"Recall over the inlier ratio", "dense_reference"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  write("bad.csv", "nonsense\n1\n");
+  EXPECT_NE(std::system((draw + "bad.csv bad.png 2>/dev/null").c_str()), 0);
+}
+
 TEST_F(Evaluate, errorsAreOneLineAndACode)
 {
   writeMacFolder("scene", 2, 50);
@@ -191,7 +209,8 @@ TEST_F(Evaluate, errorsAreOneLineAndACode)
 TEST_F(Evaluate, pairsWithoutCorrespondencesToGoByCountAsNotFound)
 {
   writeMacFolder("scene", 1, 2);
-  const ProgramRun run = evaluate(". --method flashreg,pcl_ransac_10k,dense_reference --json -");
+  const ProgramRun run =
+      evaluate(". --method flashreg,pcl_ransac_10k,dense_reference --json -");
   ASSERT_EQ(run.status, 0) << run.err;
   for (const auto& method : nlohmann::json::parse(run.out)["groups"][0]["methods"])
     EXPECT_EQ(method["recall"], 0);
@@ -232,8 +251,8 @@ TEST_F(Evaluate, shardsMergeToTheSameFile)
   writeMacFolder("b", 4, 300, 1);
   ASSERT_EQ(evaluate(". --csv whole.csv").status, 0);
   for (const char* i : {"1", "2", "3"})
-    ASSERT_EQ(evaluate(std::string(". --shard ") + i + "/3 --csv s" + i + ".csv").status,
-              0);
+    ASSERT_EQ(
+        evaluate(std::string(". --shard ") + i + "/3 --csv s" + i + ".csv").status, 0);
   EXPECT_EQ(lines("s1.csv"), 2u + 3u);
   expectFailure(". --shard 2/3 --csv s1.csv --resume", 3, "shard was \"1/3\"");
   expectFailure("--merge s1.csv s2.csv --csv merged.csv", 3, "3 of 9 pairs");
@@ -289,7 +308,9 @@ TEST_F(EvaluateRanks, goOnFromTheirParts)
 {
   // What three ranks had done when they were killed: rows 0, 4 and 5 to 6.
   const std::string whole = read("whole.csv"), times = read("whole.times.csv");
-  const auto part = [](const std::string& text, std::size_t header, std::size_t from,
+  const auto part = [](const std::string& text,
+                       std::size_t header,
+                       std::size_t from,
                        std::size_t to) {
     std::istringstream lines(text);
     std::string kept, line;

@@ -66,8 +66,8 @@ TEST_F(EvaluateDatasets, listOfPairs)
 TEST_F(EvaluateDatasets, badListsNameTheLine)
 {
   write("short.tsv", "#\nRooms\tpublic\ta.ply\tb.ply\n");
-  EXPECT_EQ(complaint("short.tsv").find(path("short.tsv") + ": line 2: found 4 columns"),
-            0u)
+  EXPECT_EQ(
+      complaint("short.tsv").find(path("short.tsv") + ": line 2: found 4 columns"), 0u)
       << complaint("short.tsv");
   std::string row = asRow(matrixText(pose_));
   row.replace(row.find('\t'), 1, "x\t");
@@ -140,8 +140,7 @@ protected:
       poses << "1 0 0 0 0 1 0 0 0 0 1 " << z << '\n';
       std::string frame = std::to_string(i);
       frame.insert(0, 6 - frame.size(), '0');
-      write("sequences/" + name + "/velodyne/" + frame + ".bin",
-            std::string(16, '\0'));
+      write("sequences/" + name + "/velodyne/" + frame + ".bin", std::string(16, '\0'));
       z += i < steps.size() ? steps[i] : 0;
     }
     write("poses/" + name + ".txt", poses.str());
@@ -166,8 +165,9 @@ TEST_F(EvaluateKitti, pairsAreThoseOfTheLiterature)
   EXPECT_EQ(data.pairs[0].scene, "08");
   // Eight metres on, what was ahead is nearer, along the lidar's x.
   EXPECT_TRUE(data.pairs[0].T_target_source.rotation.isIdentity(1e-9));
-  EXPECT_LT((data.pairs[0].T_target_source.translation - Eigen::Vector3d(-8, 0, 0)).norm(),
-            1e-9);
+  EXPECT_LT(
+      (data.pairs[0].T_target_source.translation - Eigen::Vector3d(-8, 0, 0)).norm(),
+      1e-9);
   EXPECT_EQ(data.leaf, 0.3);
   EXPECT_EQ(data.criterion.max_rotation, 5);
   EXPECT_EQ(data.criterion.max_translation, 0.6);

@@ -5,7 +5,9 @@
 
 #include "evaluate/features/correspondences.h"
 #include "evaluate/features/feature_store.h"
+#include "evaluate/features/truth.h"
 #include "evaluate_support.h"
+#include "io/file.h"
 
 namespace pcl_flashreg::evaluate {
 namespace {
@@ -106,8 +108,7 @@ TEST_F(EvaluateFeatures, theCacheIsReallyRead)
   EXPECT_NE(other->keypoints.points->size(), computed->keypoints.points->size());
   for (const fs::path& file : cached())
     if (file.filename() != key)
-      fs::copy_file(
-          path("cache/" + key), file, fs::copy_options::overwrite_existing);
+      fs::copy_file(path("cache/" + key), file, fs::copy_options::overwrite_existing);
   expectSame(*describe(), *computed);
 }
 
@@ -151,14 +152,69 @@ TEST_F(EvaluateFeatures, whatAKilledProcessLeftIsNoObstacle)
 TEST_F(EvaluateFeatures, errorsNameTheFile)
 {
   FeatureStore store(path(), 1e-9, 2, "");
-  EXPECT_EQ(complaintOf([&] { store.get("room/cloud_bin_0.pcd"); })
-                .find(path("room/cloud_bin_0.pcd") + ": "),
+  EXPECT_EQ(complaintOf([&] {
+              store.get("room/cloud_bin_0.pcd");
+            }).find(path("room/cloud_bin_0.pcd") + ": "),
             0u);
   EXPECT_NE(complaintOf([&] { store.get("room/none.pcd"); }).find("none.pcd"),
             std::string::npos);
   write("file", "x");
   EXPECT_NE(complaintOf([&] { FeatureStore(path(), 1, 1, path("file")); }).find("file"),
             std::string::npos);
+}
+
+class EvaluateTruth : public EvaluateTest {
+protected:
+  void
+  SetUp() override
+  {
+    EvaluateTest::SetUp();
+    const fs::path bundled = fs::path(PCL_FLASHREG_SOURCE_DIR) / "data/street";
+    for (const char* name : {"source.pcd", "target.pcd"})
+      fs::copy_file(bundled / name, folder_ / name);
+    truth_ =
+        io::parseFile((bundled / "T_target_source.txt").string(), io::parseTransform);
+    pair_.source = "source.pcd";
+    pair_.target = "target.pcd";
+    pair_.refine_truth = true;
+    // As far off as KITTI's poses are.
+    pair_.T_target_source = truth_;
+    pair_.T_target_source.translation += Eigen::Vector3d(0.12, -0.08, 0.05);
+  }
+
+  RigidTransform
+  refine(const std::string& cache = "") const
+  {
+    return TruthStore(path(), cache).get(pair_);
+  }
+
+  RigidTransform truth_;
+  Pair pair_;
+};
+
+TEST_F(EvaluateTruth, isRefinedWhereTheDataSetAsksForIt)
+{
+  const RigidTransform refined = refine();
+  const double before = (pair_.T_target_source.translation - truth_.translation).norm();
+  EXPECT_LT((refined.translation - truth_.translation).norm(), 0.3 * before);
+  EXPECT_LT(made::rotationError(refined.rotation, truth_.rotation), 0.1);
+  EXPECT_NEAR(refined.rotation.determinant(), 1, 1e-12);
+  pair_.refine_truth = false;
+  EXPECT_EQ(refine().translation, pair_.T_target_source.translation);
+}
+
+TEST_F(EvaluateTruth, isCachedAndNotBelievedWhenDamaged)
+{
+  fs::create_directories(path("cache"));
+  const RigidTransform refined = refine(path("cache"));
+  const fs::path file = fs::directory_iterator(path("cache"))->path();
+  EXPECT_EQ(refine(path("cache")).translation, refined.translation);
+  std::string text = io::readFile(file.string());
+  const std::size_t last_digit = text.rfind("0 0 0 1") - 2;
+  text[last_digit] = text[last_digit] == '7' ? '8' : '7';
+  write("cache/" + file.filename().string(), text);
+  EXPECT_EQ(refine(path("cache")).translation, refined.translation);
+  EXPECT_NE(io::readFile(file.string()), text) << "is not mended";
 }
 
 TEST_F(EvaluateFeatures, correspondencesAreReadFromOneFileOrTwo)

@@ -220,8 +220,9 @@ TEST_F(EvaluateResults, shardsMakeTheWhole)
   writeResults(path("merged.csv"), mergeShards({path("2.csv"), path("1.csv")}));
   EXPECT_EQ(read("merged.csv"), read("whole.csv"));
 
-  EXPECT_EQ(mergeComplaint({"1.csv"}),
-            "1 of 3 pairs are in no file, first pair 2: finish the shards with --resume");
+  EXPECT_EQ(
+      mergeComplaint({"1.csv"}),
+      "1 of 3 pairs are in no file, first pair 2: finish the shards with --resume");
   EXPECT_EQ(mergeComplaint({"1.csv", "2.csv", "whole.csv"}),
             path("whole.csv") + ": has pairs that another file has, too");
   second.config["leaf"] = 0.1;

@@ -104,6 +104,7 @@ appendSequence(DataSet& data, std::size_t sequence)
     const Eigen::Isometry3d T = T_camera_lidar.inverse() * poses[target].inverse() *
                                 poses[source] * T_camera_lidar;
     pair.T_target_source = {T.linear(), T.translation()};
+    pair.refine_truth = true;
     data.pairs.push_back(pair);
   }
 }

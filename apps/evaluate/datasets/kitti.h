@@ -21,7 +21,8 @@ isKitti(const std::string& root);
  * the sequences 8 to 10): from a frame on, the partner is the last one before the distance
  * first exceeds 10 m, looked for within 100 frames; the next pair begins with the frame
  * after the partner. 8: 15 - 58 is left out, since its pose is wrong. The earlier frame is
- * the source. Poses are those of the camera, taken to the lidar by the calibration's Tr.
+ * the source. Poses are those of the camera, taken to the lidar by the calibration's Tr, and
+ * to be refined: those of the navigation system are off by up to a metre.
  * \throws io::InputError with file and line
  */
 DataSet

@@ -20,6 +20,8 @@ struct Pair {
    * "a_{src,dst}.txt" stands for two files of points. */
   std::string correspondences;
   RigidTransform T_target_source;
+  /** \brief The pose is off by more than what counts as right: see refineTruth(). */
+  bool refine_truth = false;
 };
 
 } // namespace pcl_flashreg::evaluate

@@ -40,15 +40,15 @@ title(const GroupSummary& group)
 std::string
 row(const MethodSummary& m)
 {
-  return print("  %-18s", m.method.c_str()) + percent(m.recall) +
-         print(" %5.2f (%5.2f)  %6.3f (%6.3f)  ",
+  return print("  %-17s", m.method.c_str()) + percent(m.recall) +
+         print("  %5.2f (%5.2f)  %6.3f (%6.3f)  ",
                m.rotation_error.mean,
                m.rotation_error.median,
                m.translation_error.mean,
                m.translation_error.median) +
-         percent(m.precision) + percent(m.verdict_recall) +
-         print(" %9.2f (%9.2f)", m.estimation_ms.median, m.estimation_ms.p95) +
-         print(" %+7.2f %9.2f\n", 100 * m.recall_difference, m.time_ratio);
+         percent(m.precision) + "  " + percent(m.verdict_recall) +
+         print("  %9.2f (%9.2f)", m.estimation_ms.median, m.estimation_ms.p95) +
+         print("  %+7.2f  %8.2f\n", 100 * m.recall_difference, m.time_ratio);
 }
 
 std::string
@@ -67,10 +67,11 @@ times(const MethodSummary& m)
 }
 
 constexpr const char* HEADER =
-    "  method            recall  RE deg (med.)    TE (med.)        trusted:      "
-    "estimation ms (p95)  recall    time\n"
-    "                         %   of the right ones               prec.  rec. %  "
-    "    median             against the first\n";
+    "                            errors of the right ones       trusted poses\n"
+    "                    recall  RE (median)    TE (median)        right  recall  "
+    "     estimation (p95)    against the first\n"
+    "  method                 %  degrees                               %       %  "
+    "           ms (ms)       recall  time\n";
 
 } // namespace
 

@@ -5,6 +5,7 @@
 
 #include "../features/correspondences.h"
 #include "../features/feature_store.h"
+#include "../features/truth.h"
 #include "../methods/registry.h"
 #include "../results/judge.h"
 #include "progress.h"
@@ -61,6 +62,7 @@ prepare(const Pair& pair, const Options& options, const Job& job, FeatureStore& 
 std::vector<Record>
 evaluatePair(std::size_t number,
              const Pair& pair,
+             const RigidTransform& truth,
              const Prepared& prepared,
              const std::vector<NamedMethod>& methods,
              const Job& job)
@@ -72,8 +74,8 @@ evaluatePair(std::size_t number,
   record.source = pair.source;
   record.target = pair.target;
   record.correspondences = prepared.correspondences.size();
-  record.inlier_ratio = inlierRatio(
-      prepared.correspondences, pair.T_target_source, job.parameters.inlier_distance);
+  record.inlier_ratio =
+      inlierRatio(prepared.correspondences, truth, job.parameters.inlier_distance);
   const Problem problem{
       prepared.correspondences, prepared.source.get(), prepared.target.get()};
   std::vector<Record> records;
@@ -82,7 +84,7 @@ evaluatePair(std::size_t number,
     record.times = prepared.times;
     const Answer answer =
         record.correspondences < LEAST_CORRESPONDENCES ? Answer() : method.run(problem);
-    judge(answer, pair.T_target_source, job.data.criterion, record);
+    judge(answer, truth, job.data.criterion, record);
     records.push_back(record);
   }
   return records;
@@ -99,6 +101,7 @@ evaluatePairs(const Options& options,
 {
   const std::vector<NamedMethod> methods = makeMethods(options, job);
   FeatureStore store(job.data.root, job.data.leaf, options.threads, options.cache);
+  const TruthStore truths(job.data.root, options.cache);
   const auto pairAt = [&](std::size_t position) -> const Pair& {
     return job.data.pairs[job.pairs[position]];
   };
@@ -108,7 +111,7 @@ evaluatePairs(const Options& options,
   for (const std::size_t position : pairs) {
     const Pair& pair = pairAt(position);
     const Prepared prepared = prepare(pair, options, job, store);
-    done(evaluatePair(position, pair, prepared, methods, job));
+    done(evaluatePair(position, pair, truths.get(pair), prepared, methods, job));
     store.release(pair);
     progress.step();
   }

@@ -60,7 +60,8 @@ fingerprintOf(const Job& job)
                                     pair.source,
                                     pair.target,
                                     pair.correspondences,
-                                    io::formatTransform(pair.T_target_source)})
+                                    io::formatTransform(pair.T_target_source),
+                                    std::string(pair.refine_truth ? "refined" : "")})
       bytes += text + '\n';
   }
   return toHex(hashOf(bytes));
