@@ -91,8 +91,9 @@ TEST_F(Evaluate, registersAThreeDMatchTree)
 {
   writeFragments("kitchen");
   write("kitchen/gt.log", "0 1 2\n" + bundledPose());
-  const ProgramRun run = evaluate(". --method flashreg,flashreg_exact,flashreg_bounded,"
-                                  "dense_reference --json - --csv r.csv --cache cache");
+  const ProgramRun run =
+      evaluate(". --leaf 0.1 --method flashreg,flashreg_exact,flashreg_bounded,"
+               "dense_reference --json - --csv r.csv --cache cache");
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   const auto& group = json["groups"][0];
@@ -101,7 +102,7 @@ TEST_F(Evaluate, registersAThreeDMatchTree)
   ASSERT_EQ(group["methods"].size(), 4u);
   for (const auto& method : group["methods"]) {
     EXPECT_EQ(method["recall"], 1) << method;
-    EXPECT_LT(method["translation_error"]["mean"], 0.1) << method;
+    EXPECT_LT(method["translation_error"]["mean"], 0.15) << method;
     EXPECT_EQ(method["recall_difference"], 0);
     EXPECT_GT(method["times_ms"]["estimation"]["median"], 0);
     EXPECT_GT(method["times_ms"]["features"]["median"], 0);
@@ -109,7 +110,7 @@ TEST_F(Evaluate, registersAThreeDMatchTree)
   EXPECT_EQ(lines("r.csv"), 2u + 4u);
   EXPECT_FALSE(fs::is_empty(path("cache")));
   // From the cache, and summed up from the file: the same.
-  EXPECT_EQ(evaluate(". --method flashreg,flashreg_exact,flashreg_bounded,"
+  EXPECT_EQ(evaluate(". --leaf 0.1 --method flashreg,flashreg_exact,flashreg_bounded,"
                      "dense_reference --csv cached.csv --cache cache")
                 .status,
             0);
@@ -259,6 +260,8 @@ TEST_F(Evaluate, shardsMergeToTheSameFile)
   const ProgramRun run = evaluate("--merge s3.csv s1.csv s2.csv --csv merged.csv");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(read("merged.csv"), read("whole.csv"));
+  ASSERT_EQ(evaluate(". --every 2 --csv half.csv").status, 0);
+  EXPECT_EQ(lines("half.csv"), 2u + 5u);
   EXPECT_NE(run.out.find("9 pairs"), std::string::npos) << run.out;
 }
 

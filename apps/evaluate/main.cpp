@@ -81,14 +81,23 @@ runWithFiles(const Options& options, const Job& job, const Ranks& ranks)
     path = partPath(options.csv, ranks.rank());
     writeResults(path, {job.config, {}});
   }
-  ResultsAppender file(path);
-  evaluatePairs(options, job, pairs, options.quiet || !first, [&](const auto& records) {
-    file.append(records);
-  });
+  {
+    // Closed before the others are told: only then another machine is sure to see it all.
+    ResultsAppender file(path);
+    evaluatePairs(
+        options, job, pairs, options.quiet || !first, [&](const auto& records) {
+          file.append(records);
+        });
+  }
   ranks.wait();
   if (!first)
     return {};
   const Results results = readWithParts(options.csv, job.config);
+  const std::size_t missing = remaining(job, results).size();
+  if (missing > 0)
+    throw io::InputError(options.csv + ": rows of " + std::to_string(missing) +
+                         " pairs are not to be seen: is its folder the same for every "
+                         "rank? (--resume goes on)");
   writeResults(options.csv, results);
   removeParts(options.csv);
   return results;
