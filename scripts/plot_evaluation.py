@@ -156,8 +156,9 @@ def draw(methods, output):
     for axes in (left, right):
         axes.grid(True, axis="both" if axes is right else "y", color="#D5DAE0", linewidth=0.6)
         axes.set_axisbelow(True)
-    columns = min(len(methods), 5)
-    figure.tight_layout(rect=(0, 0.05 * -(-len(methods) // columns) + 0.01, 1, 1), w_pad=2.5)
+    lines = -(-len(methods) // 6)
+    columns = -(-len(methods) // lines)
+    figure.tight_layout(rect=(0, 0.05 * lines + 0.01, 1, 1), w_pad=2.5)
     handles, labels = left.get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncol=columns, frameon=False)
     figure.savefig(output, dpi=150)
