@@ -105,7 +105,6 @@ __launch_bounds__(WARPS* WARP) findCliques(const Call call)
                pivot.score + call.upper.scores[u.scores_begin + a] +
                    call.upper.scores[v.scores_begin + b]);
   }
-  __syncwarp();
 
   const unsigned T = call.cliques_per_pivot;
   unsigned count = 0;

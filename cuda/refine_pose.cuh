@@ -183,7 +183,6 @@ refinePose(const Call& call,
 {
   if (threadIdx.x == 0)
     shared.pose = start;
-  __syncthreads();
   unsigned count = findInliers(call, list, shared);
   for (unsigned round = 0; round < call.refinement_iterations; ++round) {
     sumInliers(call, list, count, shared);

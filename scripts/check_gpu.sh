@@ -63,7 +63,11 @@ cmake -S "$root" -B "$build/core" -DCMAKE_BUILD_TYPE=Release \
   -DPCL_FLASHREG_WITH_PCL=OFF -DPCL_FLASHREG_BUILD_TESTS=ON -DPCL_FLASHREG_WITH_CUDA=ON \
   ${architectures:+-DPCL_FLASHREG_CUDA_ARCHITECTURES="$architectures"} \
   -DPCL_FLASHREG_WERROR=ON "${cmake_args[@]}"
-cmake --build "$build/core" --parallel
+targets=(test_cuda_conformance)
+if [[ ${cmake_args[*]} == *BUILD_BENCHMARKS=ON* ]]; then
+  targets+=(pcl_flashreg_benchmark)
+fi
+cmake --build "$build/core" --parallel --target "${targets[@]}"
 
 if [[ -z $device ]]; then
   echo "$0: built, but there is no device to check it on" >&2
@@ -77,7 +81,8 @@ results=()
 check() {
   local name=$1 outcome=passed
   shift
-  if ! "$@" >"$out/$name.log" 2>&1; then
+  # A test that found no device skips itself, which is not what we are here for.
+  if ! "$@" >"$out/$name.log" 2>&1 || grep -q "^backend cuda:" "$out/$name.log"; then
     outcome=failed
     failed=1
     tail -n 30 "$out/$name.log" >&2

@@ -101,6 +101,33 @@ TEST_F(CudaEmulation, MissingBarrierShows)
   EXPECT_NE(results[0], results[2]);
 }
 
+/** \brief Passes numbers from warp to warp, twice, through the same shared memory. */
+template <bool WITH_BARRIER>
+void
+passOnTwice(unsigned* values)
+{
+  auto* shared = reinterpret_cast<unsigned*>(sharedMemory());
+  unsigned mine = values[blockIdx.x * THREADS + threadIdx.x];
+  for (int round = 0; round < 2; ++round) {
+    shared[threadIdx.x] = mine;
+    __syncthreads();
+    mine = 3 * shared[(threadIdx.x + WARP) % THREADS] + 1;
+    if (WITH_BARRIER)
+      __syncthreads();
+  }
+  values[blockIdx.x * THREADS + threadIdx.x] = mine;
+}
+
+TEST_F(CudaEmulation, MissingBarrierBeforeReuseShows)
+{
+  const auto good = runInAllOrders(&passOnTwice<true>, TWO_BLOCKS);
+  EXPECT_EQ(good[0], good[1]);
+  EXPECT_EQ(good[0], good[2]);
+  const auto bad = runInAllOrders(&passOnTwice<false>, TWO_BLOCKS);
+  EXPECT_NE(bad[0], good[0]);
+  EXPECT_NE(bad[1], good[0]);
+}
+
 /** \brief Passes numbers on through shared memory within warps. */
 template <bool WITH_BARRIER>
 void

@@ -18,7 +18,9 @@
 
 namespace cuda_emulation {
 
-/** \brief The order in which threads run between two barriers, and blocks of a launch. */
+/** \brief The order in which threads run between two barriers, and blocks of a launch.
+ * Forward and reversed, a block runs after the other, and a warp goes as far as it gets
+ * before the next; in random order threads take turns, those of some blocks at a time. */
 enum class Order { Forward, Reversed, Random };
 
 /** \brief What the emulated machine has, and what goes wrong with it. */

@@ -98,9 +98,9 @@ runThread(void* argument)
   thread->fibre->leave();
 }
 
-class Shuffler {
+/** \brief 0 to n - 1 in the order that the test asks for. */
+class Sequence {
 public:
-  /** \brief The order of this pass over n things. */
   const std::vector<std::size_t>&
   order(std::size_t n)
   {
@@ -127,6 +127,42 @@ private:
 
   std::vector<std::size_t> order_;
 };
+
+/** \brief Runs the threads from `first` on, `count` of them, once each if they are ready.
+ * \return whether any was */
+bool
+runOnce(std::size_t first, std::size_t count, Sequence& sequence)
+{
+  bool progress = false;
+  for (const std::size_t i : sequence.order(count)) {
+    Thread& thread = grid->threads[first + i];
+    if (!thread.ready || !grid->failure.empty())
+      continue;
+    current = &thread;
+    thread.fibre->resume();
+    progress = true;
+  }
+  return progress;
+}
+
+/** \brief Runs all threads for a while. In random order each gets one turn; else a warp
+ * goes as far as it gets before the next one begins, so that it is far ahead of those
+ * which it does not wait for.
+ * \return whether any could run */
+bool
+runThreads(Sequence& warps, Sequence& lanes)
+{
+  const std::size_t size = grid->threads.size();
+  if (device().order == Order::Random)
+    return runOnce(0, size, lanes);
+  bool progress = false;
+  for (const std::size_t w : warps.order((size + WARP - 1) / WARP)) {
+    const std::size_t count = std::min<std::size_t>(WARP, size - w * WARP);
+    while (runOnce(w * WARP, count, lanes))
+      progress = true;
+  }
+  return progress;
+}
 
 void
 setUp(Grid& g,
@@ -169,24 +205,16 @@ runBlocks(const std::vector<dim3>& blocks,
           const dim3& block_size,
           std::size_t shared_bytes,
           const std::function<void()>& body,
-          Shuffler& shuffler,
           std::string& failure)
 {
   Grid g;
   g.body = &body;
   setUp(g, blocks, grid_size, block_size, shared_bytes);
   grid = &g;
-  while (g.finished < g.threads.size() && g.failure.empty()) {
-    bool progress = false;
-    for (const std::size_t i : shuffler.order(g.threads.size()))
-      if (g.threads[i].ready && g.failure.empty()) {
-        current = &g.threads[i];
-        current->fibre->resume();
-        progress = true;
-      }
-    if (!progress && g.failure.empty())
+  Sequence warps, lanes;
+  while (g.finished < g.threads.size() && g.failure.empty())
+    if (!runThreads(warps, lanes) && g.failure.empty())
       g.failure = "threads wait at a barrier that others do not reach";
-  }
   grid = nullptr;
   current = nullptr;
   for (const Block& block : g.blocks)
@@ -308,18 +336,24 @@ runGrid(const dim3& grid_size,
     for (unsigned y = 0; y < grid_size.y; ++y)
       for (unsigned x = 0; x < grid_size.x; ++x)
         blocks.push_back({x, y, z});
-  Shuffler shuffler;
-  if (at_once)
-    runBlocks(blocks, grid_size, block_size, shared_bytes, body, shuffler, failure);
-  else {
-    Shuffler block_shuffler;
-    for (const std::size_t b : block_shuffler.order(blocks.size())) {
-      runBlocks(
-          {blocks[b]}, grid_size, block_size, shared_bytes, body, shuffler, failure);
-      if (!failure.empty())
-        break;
-    }
+  // In random order some blocks run side by side, as on a device; else one after another.
+  const std::size_t resident = static_cast<std::size_t>(device().multiprocessors) *
+                               device().blocks_a_multiprocessor;
+  const std::size_t together =
+      at_once ? blocks.size() : (device().order == Order::Random ? resident : 1);
+  Sequence sequence;
+  std::vector<dim3> group;
+  for (const std::size_t b : sequence.order(blocks.size())) {
+    group.push_back(blocks[b]);
+    if (group.size() < together && group.size() < blocks.size())
+      continue;
+    runBlocks(group, grid_size, block_size, shared_bytes, body, failure);
+    group.clear();
+    if (!failure.empty())
+      break;
   }
+  if (!group.empty())
+    runBlocks(group, grid_size, block_size, shared_bytes, body, failure);
   return failure.empty() ? nullptr : failure.c_str();
 }
 
