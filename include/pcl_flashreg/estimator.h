@@ -99,7 +99,7 @@ private:
 };
 
 /** \brief Names of the backends that this machine can run, best first; the SIMD variants
- * of the CPU are listed apart ("cpu-avx512", "cpu-avx2", "cpu-scalar"). */
+ * of the CPU are listed apart ("cuda", "cpu-avx512", "cpu-avx2", "cpu-scalar"). */
 PCL_FLASHREG_EXPORT std::vector<std::string>
 availableBackends();
 

@@ -10,7 +10,7 @@ run(${COLCON} --log-base log list --base-paths ${SOURCE_DIR})
 if(NOT run_output MATCHES "pcl_flashreg[^\n]*\\(([a-z.]*cmake)\\)")
   message(FATAL_ERROR "colcon does not see the package:\n${run_output}")
 endif()
-# The programs take minutes and have tests of their own.
+# The programs and the kernels take minutes and have tests of their own.
 run(${COLCON} --log-base log build --base-paths ${SOURCE_DIR}
   --build-base build --install-base install --event-handlers console_direct+
   --cmake-args -DPCL_FLASHREG_BUILD_APPS=OFF -DPCL_FLASHREG_WITH_PCL=${WITH_PCL}
