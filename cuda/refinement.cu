@@ -174,7 +174,6 @@ refineBatch(const Call& call, RefineShared& shared)
     unsigned* inliers = call.candidate_inliers + std::size_t{c} * call.words;
     for (unsigned w = threadIdx.x; w < call.words; w += REFINE_THREADS)
       inliers[w] = shared.inliers()[w];
-    __syncthreads();
   }
   if (lastBlock(&control.refinement_ticket))
     acceptBatch(call, shared.scratch);

@@ -191,9 +191,9 @@ TEST(CudaRivals, AgreeWithTheCpu)
 TEST(CudaRealPair, AgreesWithTheCpu)
 {
   PCL_FLASHREG_NEEDS_DEVICE
-  const std::string stem = "turboreg_kitti_demo/050_fpfh_kpts_";
+  const std::string stem = "turboreg_kitti_demo/000_fpfh_kpts_";
   PCL_FLASHREG_NEEDS_DATA(stem + "src.txt");
-  made::NamedProblem named{"kitti_050", {}, Parameters::fromResolution(0.3)};
+  made::NamedProblem named{"kitti_000", {}, Parameters::fromResolution(0.3)};
   named.correspondences.source = datasets::readNumbers(stem + "src.txt");
   named.correspondences.target = datasets::readNumbers(stem + "dst.txt");
   expectAgreement(named);
