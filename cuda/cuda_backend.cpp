@@ -70,11 +70,13 @@ public:
   run(const Problem& problem,
       const Parameters& parameters,
       const std::optional<Pose>& guess,
+      bool with_candidates,
       StageClock& clock,
       Trace* trace) override
   {
     try {
-      return runPipeline(stages_, problem, parameters, guess, clock, trace);
+      return runPipeline(
+          stages_, problem, parameters, guess, with_candidates, clock, trace);
     }
     catch (...) {
       // Nothing of this call may be under way when the next one begins.

@@ -54,6 +54,8 @@ public:
   settled();
   PoseEstimate
   result() const;
+  std::vector<Pose>
+  candidates() const;
   void
   copyTo(Trace& trace) const;
 

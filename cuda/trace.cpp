@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-// Copies what every stage left on the device to the host, for tests and diagnostics.
+// Copies what the stages left on the device to the host: the hypotheses for those who judge
+// them otherwise, all of it for tests and diagnostics.
 
 #include "stages.h"
 
@@ -80,6 +81,26 @@ Stages::traceHypotheses(Trace& trace) const
     }
   if (call_.has_guess)
     addSlot(call_.slots - 1);
+}
+
+std::vector<Pose>
+Stages::candidates() const
+{
+  const std::size_t pivots = control().pivots, T = call_.cliques_per_pivot;
+  const std::vector<unsigned> counts = download(call_.clique_counts, pivots);
+  const std::vector<Pose> poses = download(call_.poses, call_.slots);
+  const std::vector<long long> scores = download(call_.scores, call_.slots);
+  std::vector<Pose> valid;
+  const auto addSlot = [&](std::size_t slot) {
+    if (scores[slot] >= 0)
+      valid.push_back(poses[slot]);
+  };
+  for (std::size_t p = 0; p < pivots; ++p)
+    for (std::size_t t = 0; t < counts[p]; ++t)
+      addSlot(p * T + t);
+  if (call_.has_guess)
+    addSlot(call_.slots - 1);
+  return valid;
 }
 
 void

@@ -23,6 +23,7 @@ public:
   run(const Problem& problem,
       const Parameters& parameters,
       const std::optional<Pose>& guess,
+      bool with_candidates,
       StageClock& clock,
       Trace* trace) = 0;
 };

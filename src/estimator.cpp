@@ -4,7 +4,11 @@
 #include <pcl_flashreg/estimator.h>
 
 #include "backend.h"
+#include "clouds/cloud_check.h"
+#include "clouds/plane_alignment.h"
+#include "confidence.h"
 #include "cpu/kernels/kernels.h"
+#include "evidence.h"
 #include "information.h"
 #include "preparation.h"
 
@@ -14,16 +18,32 @@
 namespace pcl_flashreg {
 
 struct Estimator::Impl {
+  Impl(std::unique_ptr<Backend> chosen, unsigned num_threads)
+      : backend(std::move(chosen)), pool(num_threads)
+  {
+  }
+
   std::unique_ptr<Backend> backend;
+  cpu::ThreadPool pool;
   Trace* trace = nullptr;
   Preparation preparation;
   Problem problem;
+  Surface source_surface, target_surface;
 
   template <typename Scalar>
   Result
   estimate(const CorrespondenceView<Scalar>& correspondences,
            const Parameters& parameters,
-           const std::optional<RigidTransform>& guess);
+           const std::optional<RigidTransform>& guess,
+           const CloudPairView<Scalar>* clouds);
+
+  template <typename Scalar>
+  SurfacePair
+  prepareClouds(const CloudPairView<Scalar>& clouds);
+  std::vector<CheckedPose>
+  askClouds(const SurfacePair& clouds,
+            const Parameters& parameters,
+            PoseEstimate& estimate);
 
   Pose
   toCentred(const RigidTransform& T) const;
@@ -84,16 +104,71 @@ checkInput(const CorrespondenceView<Scalar>& in)
                                 " is out of range: it must fit an int");
 }
 
-/** \brief Inliers of the best hypothesis over those of the best other one. */
-double
-distinctnessOf(const std::vector<ScoredPose>& hypotheses)
+template <typename Scalar>
+void
+checkInput(const CloudPairView<Scalar>& clouds)
 {
-  int runner_up = 0;
+  for (const CloudView<Scalar>* cloud : {&clouds.source, &clouds.target})
+    if (cloud->size > 0 && (!cloud->xyz || !cloud->normals))
+      throw std::invalid_argument("clouds: size is " + std::to_string(cloud->size) +
+                                  ", but xyz or normals is null");
+  if (!(clouds.spacing > 0) || !std::isfinite(clouds.spacing))
+    throw std::invalid_argument("clouds: spacing = " + std::to_string(clouds.spacing) +
+                                " is out of range: it must be a finite length > 0");
+}
+
+/** \brief Hypotheses that the verdict needs to see: rivals for the correspondences, and
+ * more of them where the clouds choose. */
+constexpr int LISTED = 5, LISTED_FOR_CLOUDS = 20;
+
+Parameters
+withRivals(Parameters parameters, bool for_clouds)
+{
+  parameters.max_hypotheses =
+      std::max(parameters.max_hypotheses, for_clouds ? LISTED_FOR_CLOUDS : LISTED);
+  return parameters;
+}
+
+/** \brief The most inliers that a hypothesis other than the first has. */
+int
+rivalInliers(const std::vector<ScoredPose>& hypotheses)
+{
+  int most = 0;
   for (std::size_t i = 1; i < hypotheses.size(); ++i)
-    runner_up = std::max(runner_up, hypotheses[i].inlier_count);
-  if (runner_up == 0)
-    return std::numeric_limits<double>::infinity();
-  return static_cast<double>(hypotheses.front().inlier_count) / runner_up;
+    most = std::max(most, hypotheses[i].inlier_count);
+  return most;
+}
+
+/** \brief Adds what the clouds say about the best pose and its rivals. */
+void
+addEvidence(const SurfacePair& clouds,
+            const std::vector<CheckedPose>& checked,
+            Result& result)
+{
+  for (std::size_t i = 0; i < checked.size(); ++i)
+    result.hypotheses[i].agreement = checked[i].agreement;
+  constexpr double most = 5;
+  Evidence& evidence = result.evidence;
+  evidence.has_clouds = true;
+  evidence.has_viewpoints = clouds.oriented();
+  evidence.agreement = checked.front().agreement;
+  evidence.lead =
+      checked.size() < 2
+          ? most
+          : std::min(most, checked[0].evidence - checked[1].evidence);
+  evidence.stiffness = stiffnessOf(clouds, checked.front().pose);
+}
+
+void
+judge(Result& result, const Parameters& parameters)
+{
+  if (result.status != Status::Ok)
+    return;
+  result.confidence = confidenceOf(result.evidence);
+  result.converged = result.confidence >= parameters.min_confidence;
+  const auto most = static_cast<std::size_t>(parameters.max_hypotheses);
+  if (result.hypotheses.size() > most)
+    result.hypotheses.resize(most);
 }
 
 } // namespace
@@ -121,6 +196,49 @@ Estimator::Impl::toOriginal(const Pose& T) const
   return original;
 }
 
+template <typename Scalar>
+SurfacePair
+Estimator::Impl::prepareClouds(const CloudPairView<Scalar>& clouds)
+{
+  const auto spacing = static_cast<float>(clouds.spacing);
+  pool.forEach(2, [&](std::size_t side, std::size_t) {
+    if (side == 0)
+      source_surface.build(clouds.source, preparation.source_centre, spacing);
+    else
+      target_surface.build(clouds.target, preparation.target_centre, spacing);
+  });
+  return {source_surface, target_surface, spacing};
+}
+
+/** \brief What the clouds say to the hypotheses, which are replaced by those that stand.
+ * \return one pose a hypothesis; empty, and nothing is changed, if no pose that the
+ * clouds speak for has three inliers */
+std::vector<CheckedPose>
+Estimator::Impl::askClouds(const SurfacePair& clouds,
+                           const Parameters& parameters,
+                           PoseEstimate& estimate)
+{
+  std::vector<CheckedPose> checked = checkOnClouds(clouds,
+                                                   problem,
+                                                   estimate.candidates,
+                                                   estimate.hypotheses,
+                                                   parameters.inlier_distance,
+                                                   pool);
+  if (checked.empty() || checked.front().inlier_count < 3)
+    return {};
+  estimate.hypotheses.clear();
+  for (const CheckedPose& pose : checked) {
+    std::vector<int> inliers =
+        inliersOf(problem, pose.pose, parameters.inlier_distance);
+    estimate.hypotheses.push_back({pose.pose,
+                                   scoreOf(problem, pose.pose, inliers, parameters),
+                                   pose.inlier_count});
+    if (estimate.hypotheses.size() == 1)
+      estimate.inliers = std::move(inliers);
+  }
+  return checked;
+}
+
 void
 Estimator::Impl::fill(Result& result,
                       const PoseEstimate& estimate,
@@ -131,18 +249,22 @@ Estimator::Impl::fill(Result& result,
   if (estimate.status != Status::Ok)
     return;
   for (const ScoredPose& hypothesis : estimate.hypotheses)
-    result.hypotheses.push_back(
-        {toOriginal(hypothesis.pose),
-         hypothesis.inlier_count,
-         static_cast<double>(hypothesis.score) / static_cast<double>(SCORE_UNIT)});
+    result.hypotheses.push_back({toOriginal(hypothesis.pose),
+                                 hypothesis.inlier_count,
+                                 static_cast<double>(hypothesis.score) /
+                                     static_cast<double>(SCORE_UNIT),
+                                 std::nullopt});
   result.T_target_source = result.hypotheses.front().T_target_source;
   result.score = result.hypotheses.front().score;
   for (const int i : estimate.inliers)
     result.inliers.push_back(preparation.rows[i]);
-  result.distinctness = distinctnessOf(estimate.hypotheses);
-  result.converged =
-      static_cast<int>(result.inliers.size()) >= parameters.min_inliers &&
-      result.distinctness >= parameters.min_distinctness;
+  const int rival = rivalInliers(estimate.hypotheses);
+  result.distinctness = rival > 0 ? static_cast<double>(estimate.inliers.size()) / rival
+                                  : std::numeric_limits<double>::infinity();
+  result.evidence = evidenceOfCorrespondences(problem,
+                                              estimate.inliers,
+                                              rival,
+                                              parameters.inlier_distance);
   result.information = informationMatrix(problem,
                                          estimate.hypotheses.front().pose,
                                          estimate.inliers,
@@ -154,10 +276,13 @@ template <typename Scalar>
 Result
 Estimator::Impl::estimate(const CorrespondenceView<Scalar>& correspondences,
                           const Parameters& parameters,
-                          const std::optional<RigidTransform>& guess)
+                          const std::optional<RigidTransform>& guess,
+                          const CloudPairView<Scalar>* clouds)
 {
   parameters.validate();
   checkInput(correspondences);
+  if (clouds)
+    checkInput(*clouds);
   Result result;
   result.backend = backend->name();
   StageClock clock(result.timings_ms);
@@ -173,18 +298,34 @@ Estimator::Impl::estimate(const CorrespondenceView<Scalar>& correspondences,
     centred_guess = toCentred(*guess);
   clock.finish(&StageTimings::preparation);
 
-  if (problem.size >= 3)
-    fill(result,
-         backend->run(problem, parameters, centred_guess, clock, trace),
-         parameters);
+  if (problem.size >= 3) {
+    // Only with viewpoints can the clouds tell which of thousands of poses is right.
+    const bool screen = clouds && clouds->source.viewpoint && clouds->target.viewpoint;
+    PoseEstimate estimate = backend->run(problem,
+                                         withRivals(parameters, clouds != nullptr),
+                                         centred_guess,
+                                         screen,
+                                         clock,
+                                         trace);
+    std::optional<SurfacePair> surfaces;
+    std::vector<CheckedPose> checked;
+    if (clouds && estimate.status == Status::Ok) {
+      surfaces.emplace(prepareClouds(*clouds));
+      checked = askClouds(*surfaces, parameters, estimate);
+    }
+    fill(result, estimate, parameters);
+    if (!checked.empty())
+      addEvidence(*surfaces, checked, result);
+    judge(result, parameters);
+    clock.finish(&StageTimings::cloud_check);
+  }
   clock.finishAll();
   return result;
 }
 
 Estimator::Estimator(BackendKind backend, unsigned num_threads)
-    : impl_(std::make_unique<Impl>())
+    : impl_(std::make_unique<Impl>(makeBackend(backend, num_threads), num_threads))
 {
-  impl_->backend = makeBackend(backend, num_threads);
 }
 
 Estimator::~Estimator() = default;
@@ -195,17 +336,19 @@ Estimator::operator=(Estimator&&) noexcept = default;
 Result
 Estimator::estimate(const CorrespondenceView<float>& correspondences,
                     const Parameters& parameters,
-                    const std::optional<RigidTransform>& guess)
+                    const std::optional<RigidTransform>& guess,
+                    const CloudPairView<float>* clouds)
 {
-  return impl_->estimate(correspondences, parameters, guess);
+  return impl_->estimate(correspondences, parameters, guess, clouds);
 }
 
 Result
 Estimator::estimate(const CorrespondenceView<double>& correspondences,
                     const Parameters& parameters,
-                    const std::optional<RigidTransform>& guess)
+                    const std::optional<RigidTransform>& guess,
+                    const CloudPairView<double>* clouds)
 {
-  return impl_->estimate(correspondences, parameters, guess);
+  return impl_->estimate(correspondences, parameters, guess, clouds);
 }
 
 void

@@ -66,10 +66,8 @@ Parameters::validate() const
   checkRange("score_metric", static_cast<int>(score_metric), 0, 2);
   checkRange("refinement_iterations", refinement_iterations, 0, 1000);
   checkRange("max_hypotheses", max_hypotheses, 1, 64);
-  if (min_inliers < 3)
-    reject("min_inliers", min_inliers, "it must be >= 3");
-  if (!(min_distinctness >= 1) || !std::isfinite(min_distinctness))
-    reject("min_distinctness", min_distinctness, "it must be finite and >= 1");
+  if (!(min_confidence >= 0 && min_confidence <= 1))
+    reject("min_confidence", min_confidence, "it must lie in [0, 1]");
 }
 
 } // namespace pcl_flashreg

@@ -23,6 +23,9 @@ struct PoseEstimate {
   std::vector<ScoredPose> hypotheses;
   /** \brief Rows of the problem that agree with the first, ascending. */
   std::vector<int> inliers;
+  /** \brief Every hypothesis that was verified, as it was, in clique order and the guess
+   * last; empty unless asked for. */
+  std::vector<Pose> candidates;
 };
 
 /** \brief The method, once for every backend (docs/method.md): stages 1 to 7.
@@ -32,6 +35,7 @@ struct PoseEstimate {
  * settled() waits for the work, and tells whether stage 2 had the buffers that this input
  * needs: a device finds out when it is too late to ask the host for others.
  * \param[in] guess a pose in the centred frames that is verified with the others
+ * \param[in] with_candidates whether PoseEstimate::candidates is wanted
  */
 template <typename Stages>
 PoseEstimate
@@ -39,6 +43,7 @@ runPipeline(Stages& stages,
             const Problem& problem,
             const Parameters& parameters,
             const std::optional<Pose>& guess,
+            bool with_candidates,
             StageClock& clock,
             Trace* trace)
 {
@@ -69,7 +74,10 @@ runPipeline(Stages& stages,
 
   if (trace)
     stages.copyTo(*trace);
-  return stages.result();
+  PoseEstimate estimate = stages.result();
+  if (with_candidates)
+    estimate.candidates = stages.candidates();
+  return estimate;
 }
 
 } // namespace pcl_flashreg

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <pcl_flashreg/cloud_view.h>
 #include <pcl_flashreg/parameters.h>
 #include <pcl_flashreg/result.h>
 
@@ -67,6 +68,9 @@ public:
    * \param[in] correspondences rows with a coordinate that is not finite are ignored
    * \param[in] parameters validated first
    * \param[in] guess a pose that is scored as one more hypothesis; never a constraint
+   * \param[in] clouds where the correspondences come from, or null: the hypotheses are
+   * then judged by how the clouds fit, too, which finds more right poses and tells them
+   * from wrong ones far better, and the best is moved onto the surfaces
    * \throws std::invalid_argument if a parameter is out of range, or if a pointer is null
    * while the size is not 0
    * \throws BackendError, std::bad_alloc if the machine fails; the object stays usable
@@ -74,7 +78,8 @@ public:
   Result
   estimate(const CorrespondenceView<float>& correspondences,
            const Parameters& parameters = {},
-           const std::optional<RigidTransform>& guess = std::nullopt);
+           const std::optional<RigidTransform>& guess = std::nullopt,
+           const CloudPairView<float>* clouds = nullptr);
 
   /** \brief The same for coordinates in double precision: use it where coordinates are
    * large (geo-referenced clouds). They are centred before anything is rounded to single
@@ -82,7 +87,8 @@ public:
   Result
   estimate(const CorrespondenceView<double>& correspondences,
            const Parameters& parameters = {},
-           const std::optional<RigidTransform>& guess = std::nullopt);
+           const std::optional<RigidTransform>& guess = std::nullopt,
+           const CloudPairView<double>* clouds = nullptr);
 
   /** \brief For tests and diagnostics: where the next calls leave the output of every
    * stage; null (the default) for nowhere. See src/trace.h. */

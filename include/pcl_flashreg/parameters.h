@@ -88,13 +88,9 @@ struct PCL_FLASHREG_EXPORT Parameters {
    * >= 1, <= 64. */
   int max_hypotheses = 5;
 
-  /** \brief The verdict: a pose is trusted if it has at least this many inliers ...
-   * >= 3. */
-  int min_inliers = 12;
-
-  /** \brief ... and at least this many times the inliers of the best hypothesis that
-   * disagrees with it. >= 1. How both were chosen: docs/method.md. */
-  float min_distinctness = 1.5f;
+  /** \brief The verdict: a pose is trusted if Result::confidence is at least this.
+   * [0, 1]. What precision and recall that gives: docs/method.md. */
+  float min_confidence = 0.6f;
 
   /** \brief All lengths from the resolution of the clouds (the voxel size v):
    * length_tolerance 0.24 v, min_length_sum 3 v, inlier_distance 2 v.

@@ -3,12 +3,14 @@
 
 #pragma once
 
+#include <pcl_flashreg/cloud_view.h>
 #include <pcl_flashreg/parameters.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,6 +71,8 @@ struct StageTimings {
   double hypotheses = 0;
   double verification = 0;
   double refinement = 0;
+  /** \brief Bringing the hypotheses before the clouds, where there are any. */
+  double cloud_check = 0;
   /** \brief The whole call. */
   double total = 0;
 };
@@ -80,6 +84,35 @@ struct Hypothesis {
   int inlier_count = 0;
   /** \brief By Parameters::score_metric; the inlier count by default. */
   double score = 0;
+  /** \brief What the clouds say; nothing if they were not asked. */
+  std::optional<CloudAgreement> agreement;
+};
+
+/** \brief What Result::confidence is computed from (docs/method.md); no number has a
+ * unit. */
+struct Evidence {
+  /** \brief Correspondences that agree with the pose. */
+  double inliers = 0;
+  /** \brief The same over the correspondences that were used. */
+  double inlier_ratio = 0;
+  /** \brief Most correspondences that agree with a pose that disagrees with this one. */
+  double rival_inliers = 0;
+  /** \brief Smallest standard deviation of the inliers' source points along any axis, in
+   * halves of the inlier distance: near 0 if they lie in a plane, which leaves a pose free
+   * to slide. */
+  double thickness = 0;
+
+  /** \brief Whether the clouds were asked: the rest is 0 where not. */
+  bool has_clouds = false;
+  /** \brief Whether both viewpoints are known. */
+  bool has_viewpoints = false;
+  CloudAgreement agreement;
+  /** \brief By how much the evidence for this pose exceeds that for the best other one,
+   * as a logarithm; at most 5, which is also its value where there is no other one. */
+  double lead = 0;
+  /** \brief How firmly the surfaces hold the pose: the smallest eigenvalue of their
+   * point-to-plane Hessian, with arms in units of their own spread, a point. */
+  double stiffness = 0;
 };
 
 /** \brief 6x6, symmetric, positive semi-definite; a type whose alignment does not depend on
@@ -94,9 +127,16 @@ struct Result {
 
   Status status = Status::TooFewCorrespondences;
 
-  /** \brief The verdict: status is Ok and the pose passed the test stated at
-   * Parameters::min_inliers and Parameters::min_distinctness. */
+  /** \brief The verdict: status is Ok and confidence is at least
+   * Parameters::min_confidence. */
   bool converged = false;
+
+  /** \brief Probability that the pose is right, in [0, 1], as fitted on public pairs of
+   * scans (docs/method.md has the fit and its limits); 0 unless status is Ok. */
+  double confidence = 0;
+
+  /** \brief What the confidence is computed from. */
+  Evidence evidence;
 
   /** \brief Rows of the input that agree with the pose, ascending. */
   std::vector<int> inliers;
@@ -110,7 +150,8 @@ struct Result {
 
   /** \brief The best distinct hypotheses, refined, best first; the first is the pose
    * itself. Two are distinct if they move some corner of the source correspondences'
-   * bounding box to places further apart than 5 * Parameters::inlier_distance. */
+   * bounding box to places further apart than 5 * Parameters::inlier_distance. Best by
+   * score; where there are clouds, by what those say. */
   std::vector<Hypothesis> hypotheses;
 
   /** \brief Rows of the input with finite coordinates that were used. */

@@ -34,5 +34,16 @@ Stages::hypotheses()
   }
 }
 
+/** \brief The valid ones, in order. */
+std::vector<Pose>
+Stages::candidates() const
+{
+  std::vector<Pose> valid;
+  for (std::size_t i = 0; i < poses_.size(); ++i)
+    if (pose_valid_[i])
+      valid.push_back(poses_[i]);
+  return valid;
+}
+
 } // namespace cpu
 } // namespace pcl_flashreg

@@ -29,10 +29,12 @@ public:
   run(const Problem& problem,
       const Parameters& parameters,
       const std::optional<Pose>& guess,
+      bool with_candidates,
       StageClock& clock,
       Trace* trace) override
   {
-    return runPipeline(stages_, problem, parameters, guess, clock, trace);
+    return runPipeline(
+        stages_, problem, parameters, guess, with_candidates, clock, trace);
   }
 
 private:

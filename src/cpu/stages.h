@@ -44,6 +44,8 @@ public:
   verification();
   void
   refinement();
+  std::vector<Pose>
+  candidates() const;
   void
   finish(double StageTimings::*stage)
   {

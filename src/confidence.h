@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/result.h>
+
+namespace pcl_flashreg {
+
+/** \brief Result::confidence: a logistic regression on the evidence, with one set of
+ * coefficients for correspondences alone, one for clouds with viewpoints and one for
+ * clouds without. scripts/fit_confidence.py computes them. */
+double
+confidenceOf(const Evidence& evidence);
+
+} // namespace pcl_flashreg
