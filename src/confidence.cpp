@@ -3,6 +3,7 @@
 
 #include "confidence.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_flashreg {
@@ -14,30 +15,40 @@ logistic(double x)
   return 1 / (1 + std::exp(-x));
 }
 
+/** \brief No pose is more certain than its lead over its rival lets it be: 50 % for one
+ * with as many inliers. */
+double
+limitByRival(const Evidence& e)
+{
+  return 1 / (1 + std::pow(e.rival_inliers / std::max(1.0, e.inliers), 4));
+}
+
 double
 fromCorrespondences(const Evidence& e)
 {
-  return logistic(-11.71 + 3.24 * std::log(e.inliers + 1) +
-                  1.87 * std::log(e.inlier_ratio + 1e-4) +
-                  0.34 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
-                  1.62 * std::log(e.thickness + 1));
+  const double p =
+      logistic(-11.63 + 3.23 * std::log(e.inliers + 1) +
+               1.87 * std::log(e.inlier_ratio + 1e-4) +
+               0.34 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
+               1.62 * std::log(e.thickness + 1));
+  return std::min(p, limitByRival(e));
 }
 
 double
 fromClouds(const Evidence& e)
 {
-  return logistic(-22.08 + 0.68 * std::log(e.agreement.matched + 0.01) -
-                  4.49 * std::log(e.agreement.contradicted + 0.01) +
-                  2.00 * std::log(e.inliers + 5) + 0.96 * e.lead +
-                  1.17 * std::log(e.stiffness + 0.001));
+  return logistic(-22.16 + 0.84 * std::log(e.agreement.matched + 0.01) -
+                  4.22 * std::log(e.agreement.contradicted + 0.01) +
+                  2.52 * std::log(e.inliers + 5) + 1.36 * e.lead +
+                  1.25 * std::log(e.stiffness + 0.001));
 }
 
 double
 fromCloudsWithoutViewpoints(const Evidence& e)
 {
-  return logistic(-2.0 + 0.68 * std::log(e.agreement.matched + 0.01) +
-                  2.00 * std::log(e.inliers + 5) + 0.96 * e.lead +
-                  1.17 * std::log(e.stiffness + 0.001));
+  return logistic(-10.05 - 0.76 * std::log(e.agreement.matched + 0.01) +
+                  3.83 * std::log(e.inliers + 5) + 0.38 * e.lead +
+                  1.95 * std::log(e.stiffness + 0.001));
 }
 
 } // namespace

@@ -40,10 +40,11 @@ struct Estimator::Impl {
   template <typename Scalar>
   SurfacePair
   prepareClouds(const CloudPairView<Scalar>& clouds);
-  std::vector<CheckedPose>
+  void
   askClouds(const SurfacePair& clouds,
             const Parameters& parameters,
-            PoseEstimate& estimate);
+            PoseEstimate& estimate,
+            CloudFindings& findings);
 
   Pose
   toCentred(const RigidTransform& T) const;
@@ -52,6 +53,7 @@ struct Estimator::Impl {
   void
   fill(Result& result,
        const PoseEstimate& estimate,
+       const CloudFindings& findings,
        const Parameters& parameters) const;
 };
 
@@ -139,38 +141,6 @@ rivalInliers(const std::vector<ScoredPose>& hypotheses)
   return most;
 }
 
-/** \brief Adds what the clouds say about the best pose and its rivals. */
-void
-addEvidence(const SurfacePair& clouds,
-            const std::vector<CheckedPose>& checked,
-            Result& result)
-{
-  for (std::size_t i = 0; i < checked.size(); ++i)
-    result.hypotheses[i].agreement = checked[i].agreement;
-  constexpr double most = 5;
-  Evidence& evidence = result.evidence;
-  evidence.has_clouds = true;
-  evidence.has_viewpoints = clouds.oriented();
-  evidence.agreement = checked.front().agreement;
-  evidence.lead =
-      checked.size() < 2
-          ? most
-          : std::min(most, checked[0].evidence - checked[1].evidence);
-  evidence.stiffness = stiffnessOf(clouds, checked.front().pose);
-}
-
-void
-judge(Result& result, const Parameters& parameters)
-{
-  if (result.status != Status::Ok)
-    return;
-  result.confidence = confidenceOf(result.evidence);
-  result.converged = result.confidence >= parameters.min_confidence;
-  const auto most = static_cast<std::size_t>(parameters.max_hypotheses);
-  if (result.hypotheses.size() > most)
-    result.hypotheses.resize(most);
-}
-
 } // namespace
 
 /** \brief p_t = R p_s + t with p_s = s + c_s and p_t = q + c_t: q = R s + R c_s + t - c_t. */
@@ -210,38 +180,36 @@ Estimator::Impl::prepareClouds(const CloudPairView<Scalar>& clouds)
   return {source_surface, target_surface, spacing};
 }
 
-/** \brief What the clouds say to the hypotheses, which are replaced by those that stand.
- * \return one pose a hypothesis; empty, and nothing is changed, if no pose that the
- * clouds speak for has three inliers */
-std::vector<CheckedPose>
+/** \brief Replaces the hypotheses by those that stand before the clouds, unless the best
+ * of these has less than three inliers. */
+void
 Estimator::Impl::askClouds(const SurfacePair& clouds,
                            const Parameters& parameters,
-                           PoseEstimate& estimate)
+                           PoseEstimate& estimate,
+                           CloudFindings& findings)
 {
-  std::vector<CheckedPose> checked = checkOnClouds(clouds,
-                                                   problem,
-                                                   estimate.candidates,
-                                                   estimate.hypotheses,
-                                                   parameters.inlier_distance,
-                                                   pool);
-  if (checked.empty() || checked.front().inlier_count < 3)
-    return {};
+  const float limit = parameters.inlier_distance;
+  findings = checkOnClouds(
+      clouds, problem, estimate.candidates, estimate.hypotheses, limit, pool);
+  if (findings.evidence.inliers < 3) {
+    findings = {};
+    return;
+  }
   estimate.hypotheses.clear();
-  for (const CheckedPose& pose : checked) {
-    std::vector<int> inliers =
-        inliersOf(problem, pose.pose, parameters.inlier_distance);
-    estimate.hypotheses.push_back({pose.pose,
-                                   scoreOf(problem, pose.pose, inliers, parameters),
-                                   pose.inlier_count});
+  for (const CheckedPose& checked : findings.poses) {
+    std::vector<int> inliers = inliersOf(problem, checked.pose, limit);
+    estimate.hypotheses.push_back({checked.pose,
+                                   scoreOf(problem, checked.pose, inliers, parameters),
+                                   checked.inlier_count});
     if (estimate.hypotheses.size() == 1)
       estimate.inliers = std::move(inliers);
   }
-  return checked;
 }
 
 void
 Estimator::Impl::fill(Result& result,
                       const PoseEstimate& estimate,
+                      const CloudFindings& findings,
                       const Parameters& parameters) const
 {
   result.status = estimate.status;
@@ -261,10 +229,15 @@ Estimator::Impl::fill(Result& result,
   const int rival = rivalInliers(estimate.hypotheses);
   result.distinctness = rival > 0 ? static_cast<double>(estimate.inliers.size()) / rival
                                   : std::numeric_limits<double>::infinity();
-  result.evidence = evidenceOfCorrespondences(problem,
-                                              estimate.inliers,
-                                              rival,
-                                              parameters.inlier_distance);
+  result.evidence = findings.evidence;
+  addCorrespondences(
+      problem, estimate.inliers, rival, parameters.inlier_distance, result.evidence);
+  for (std::size_t i = 0; i < findings.poses.size(); ++i)
+    result.hypotheses[i].agreement = findings.poses[i].agreement;
+  result.hypotheses.resize(
+      std::min<std::size_t>(result.hypotheses.size(), parameters.max_hypotheses));
+  result.confidence = confidenceOf(result.evidence);
+  result.converged = result.confidence >= parameters.min_confidence;
   result.information = informationMatrix(problem,
                                          estimate.hypotheses.front().pose,
                                          estimate.inliers,
@@ -307,16 +280,10 @@ Estimator::Impl::estimate(const CorrespondenceView<Scalar>& correspondences,
                                          screen,
                                          clock,
                                          trace);
-    std::optional<SurfacePair> surfaces;
-    std::vector<CheckedPose> checked;
-    if (clouds && estimate.status == Status::Ok) {
-      surfaces.emplace(prepareClouds(*clouds));
-      checked = askClouds(*surfaces, parameters, estimate);
-    }
-    fill(result, estimate, parameters);
-    if (!checked.empty())
-      addEvidence(*surfaces, checked, result);
-    judge(result, parameters);
+    CloudFindings findings;
+    if (clouds && estimate.status == Status::Ok)
+      askClouds(prepareClouds(*clouds), parameters, estimate, findings);
+    fill(result, estimate, findings, parameters);
     clock.finish(&StageTimings::cloud_check);
   }
   clock.finishAll();

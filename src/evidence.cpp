@@ -73,18 +73,17 @@ scoreOf(const Problem& problem,
   return score;
 }
 
-Evidence
-evidenceOfCorrespondences(const Problem& problem,
-                          const std::vector<int>& inliers,
-                          int rival_inliers,
-                          float inlier_distance)
+void
+addCorrespondences(const Problem& problem,
+                   const std::vector<int>& inliers,
+                   int rival_inliers,
+                   float inlier_distance,
+                   Evidence& evidence)
 {
-  Evidence evidence;
   evidence.inliers = static_cast<double>(inliers.size());
   evidence.inlier_ratio = evidence.inliers / static_cast<double>(problem.size);
   evidence.rival_inliers = rival_inliers;
   evidence.thickness = thicknessOf(problem, inliers) / (0.5 * inlier_distance);
-  return evidence;
 }
 
 } // namespace pcl_flashreg

@@ -23,11 +23,12 @@ scoreOf(const Problem& problem,
         const std::vector<int>& inliers,
         const Parameters& parameters);
 
-/** \brief The part of the evidence that comes from correspondences. */
-Evidence
-evidenceOfCorrespondences(const Problem& problem,
-                          const std::vector<int>& inliers,
-                          int rival_inliers,
-                          float inlier_distance);
+/** \brief Fills in the part of the evidence that comes from correspondences. */
+void
+addCorrespondences(const Problem& problem,
+                   const std::vector<int>& inliers,
+                   int rival_inliers,
+                   float inlier_distance,
+                   Evidence& evidence);
 
 } // namespace pcl_flashreg

@@ -236,7 +236,7 @@ TEST_F(CliTest, optionsReachTheEstimator)
   writeRoom("source.pcd", "target.pcd");
   const std::string common = "source.pcd target.pcd --leaf 0.1 --json - ";
   const auto json = align(common + "--length-tolerance 0.02 --max-correspondences 100 "
-                                   "--second-order bounded --score mse --min-inliers 5 "
+                                   "--second-order bounded --score mse --min-confidence 0.3 "
                                    "--max-hypotheses 2 --backend cpu")
                         .json();
   EXPECT_NEAR(json.at("parameters").at("length_tolerance").get<double>(), 0.02, 1e-8);
@@ -246,8 +246,29 @@ TEST_F(CliTest, optionsReachTheEstimator)
   EXPECT_EQ(json.at("second_order"), "bounded");
   EXPECT_LT(json.at("score").get<double>(), json.at("inliers").get<double>());
   EXPECT_LE(json.at("hypotheses").size(), 2u);
-  const CliRun strict = align(common + "--min-inliers 100000");
-  EXPECT_NE(strict.status, 0);
+  EXPECT_NEAR(json.at("parameters").at("min_confidence").get<double>(), 0.3, 1e-6);
+  EXPECT_EQ(align(common + "--min-confidence 1").status, 1);
+}
+
+TEST_F(CliTest, theCloudsHaveASayUnlessToldOtherwise)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const std::string common = "source.pcd target.pcd --leaf 0.1 --json - ";
+  const auto full = align(common).json();
+  EXPECT_GE(full.at("confidence").get<double>(), 0.6);
+  EXPECT_LE(full.at("confidence").get<double>(), 1);
+  EXPECT_GT(full.at("evidence").at("matched").get<double>(), 0.3);
+  EXPECT_GT(full.at("timings_ms").at("cloud_check").get<double>(), 0);
+  expectTruth(poseOf(full));
+
+  const auto unseen = align(common + "--no-viewpoint").json();
+  EXPECT_EQ(unseen.at("evidence").at("viewpoints"), false);
+  expectTruth(poseOf(unseen));
+
+  const auto fast = align(common + "--fast").json();
+  EXPECT_FALSE(fast.at("evidence").contains("matched"));
+  EXPECT_GT(fast.at("evidence").at("inliers").get<double>(), 12);
+  expectTruth(poseOf(fast));
 }
 
 TEST_F(CliTest, anUntrustedPoseIsNotWritten)
@@ -291,7 +312,7 @@ TEST_F(CliTest, helpAndVersion)
   const CliRun help = align("--help");
   EXPECT_EQ(help.status, 0);
   for (const char* word :
-       {"Examples:", "--correspondences", "--min-distinctness", "Exit"})
+       {"Examples:", "--correspondences", "--min-confidence", "Exit"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   const CliRun printed = align("--version");
   EXPECT_EQ(printed.status, 0);

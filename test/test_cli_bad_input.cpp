@@ -129,7 +129,7 @@ TEST_F(CliBadInput, commandLinesThatMakeNoSense)
   expectError(pair + "--backend abacus", 2, "abacus");
   expectError(pair + "--second-order third", 2, "third");
   expectError(pair + "--pivots 0", 2, "--pivots = 0 is out of range");
-  expectError(pair + "--min-inliers 2", 2, "--min-inliers = 2");
+  expectError(pair + "--min-confidence 2", 2, "--min-confidence = 2");
   expectError(pair + "--inlier-distance -1", 2, "--inlier-distance");
   expectError(pair + "--threads -1", 2, "--threads");
   expectError(pair + "--neighbors 0", 2, "--neighbors");

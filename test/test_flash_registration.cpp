@@ -40,6 +40,29 @@ TEST_F(FlashRegistrationTest, TellsWhatSpeaksForThePose)
   }
 }
 
+TEST_F(FlashRegistrationTest, LetsTheCloudsHaveASay)
+{
+  EXPECT_TRUE(registration.getCloudCheck());
+  EXPECT_TRUE(registration.getViewpointsKnown());
+  registration.align(output);
+  expectFound();
+  EXPECT_TRUE(registration.getResult().evidence.has_clouds);
+  EXPECT_GT(registration.getResult().evidence.agreement.matched, 0.3);
+  EXPECT_GE(registration.getConfidence(), registration.getParameters().min_confidence);
+  EXPECT_LE(registration.getConfidence(), 1);
+
+  registration.setViewpointsKnown(false);
+  registration.align(output);
+  expectFound();
+  EXPECT_FALSE(registration.getResult().evidence.has_viewpoints);
+  EXPECT_EQ(registration.getResult().evidence.agreement.contradicted, 0);
+
+  registration.setCloudCheck(false);
+  registration.align(output);
+  expectFound();
+  EXPECT_FALSE(registration.getResult().evidence.has_clouds);
+}
+
 TEST_F(FlashRegistrationTest, EstimatesTheResolution)
 {
   registration.setResolution(0);

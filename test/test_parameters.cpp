@@ -79,8 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"refinement_iterations",
                  [](Parameters& p) { p.refinement_iterations = -1; }},
         BadField{"max_hypotheses", [](Parameters& p) { p.max_hypotheses = 0; }},
-        BadField{"min_inliers", [](Parameters& p) { p.min_inliers = 2; }},
-        BadField{"min_distinctness", [](Parameters& p) { p.min_distinctness = 0.5f; }},
+        BadField{"min_confidence", [](Parameters& p) { p.min_confidence = 1.5f; }},
         BadField{"second_order",
                  [](Parameters& p) { p.second_order = static_cast<SecondOrder>(7); }}),
     [](const auto& test) { return test.param.name + std::to_string(test.index); });

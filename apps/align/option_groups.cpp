@@ -135,6 +135,17 @@ addPipeline(CLI::App& app, Options& options, Words& words)
   app.add_flag(
          "--mutual", options.mutual, wrapped("Keep matches that hold both ways only"))
       ->group(group);
+  app.add_flag("--fast",
+               options.fast,
+               wrapped("Judge poses by the correspondences alone: a few milliseconds "
+                       "less, fewer right poses, a weaker verdict"))
+      ->group(group);
+  app.add_flag("--no-viewpoint{false}",
+               options.viewpoints_known,
+               wrapped("The sensors did not stand at the VIEWPOINT of their clouds (the "
+                       "origin, where a file states none): don't take the space "
+                       "between it and the points for empty"))
+      ->group(group);
   app.add_option("--backend", words.backend, wrapped("auto, cpu or cuda"))
       ->capture_default_str()
       ->check(CLI::IsMember(keysOf(kBackends)).description(""))
@@ -201,12 +212,9 @@ addMethod(CLI::App& app, Parameters& parameters, Words& words)
   add("--max-hypotheses",
       parameters.max_hypotheses,
       "Distinct poses listed in the JSON");
-  add("--min-inliers",
-      parameters.min_inliers,
-      "Inliers that a trusted pose has at least");
-  add("--min-distinctness",
-      parameters.min_distinctness,
-      "Times the inliers of the best rival that a trusted pose has at least");
+  add("--min-confidence",
+      parameters.min_confidence,
+      "Confidence that a trusted pose has at least, from 0 to 1");
 }
 
 } // namespace

@@ -50,6 +50,10 @@ struct Options {
 
   std::size_t neighbors = 1;
   bool mutual = false;
+  /** \brief Leave the clouds out of the decision which pose is right. */
+  bool fast = false;
+  /** \brief Whether the sensors stood at the VIEWPOINT of their clouds. */
+  bool viewpoints_known = true;
   BackendKind backend = BackendKind::Auto;
   unsigned threads = 0;
 

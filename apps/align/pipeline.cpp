@@ -9,6 +9,7 @@
 #include "modules.h"
 
 #include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/impl/cloud_buffer.hpp>
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <sstream>
@@ -32,10 +33,27 @@ struct Side {
   const InputCloud& input;
   io::ShiftedCloud shifted;
 
+  /** \brief Frame of the file. Nothing where the cloud lies so far from the origin that
+   * no sensor can have stood there, which is what a file without one says. */
+  std::optional<Eigen::Vector3d> viewpoint;
+
   explicit Side(const InputCloud& cloud)
       : input(cloud), shifted(io::toPclCloud(cloud.xyz))
   {
+    const Eigen::Vector3d stated(cloud.cloud.viewpoint.data());
+    if (!shifted.shift.isZero(0) && stated.isZero(0))
+      return;
+    viewpoint = stated;
+    shifted.points->sensor_origin_.head<3>() = (stated - shifted.shift).cast<float>();
   }
+};
+
+/** \brief What the estimator works on. */
+struct Matched {
+  RankedCorrespondences correspondences;
+  detail::CloudBuffer<double> source, target;
+  /** \brief Of the two clouds; nothing where they have no say. */
+  std::optional<CloudPairView<double>> clouds;
 };
 
 template <typename Estimate>
@@ -102,7 +120,7 @@ describe(const Side& side, const Options& options, Outcome& outcome)
     throw InputError(side.input.path + ": " + error.what());
   }
   const auto& points = *keypoints.described.points;
-  const auto needed = static_cast<std::size_t>(options.parameters.min_inliers);
+  constexpr std::size_t needed = 12;
   if (points.size() < needed) {
     const std::string problem = "leaves only " + std::to_string(points.size()) +
                                 " points that can be described, while a trusted pose "
@@ -112,7 +130,7 @@ describe(const Side& side, const Options& options, Outcome& outcome)
       failLeaf(side, *options.leaf, problem);
     throw InputError(side.input.path + ": the voxel grid of " +
                      shortNumber(*outcome.resolution) + " " + problem +
-                     " (--leaf sets another, --min-inliers the number)");
+                     " (--leaf sets another)");
   }
   keypoints.xyz.resize(3, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -156,29 +174,48 @@ warnOfLongMatching(const Keypoints& source,
                   "twice as large) take a sixteenth of it");
 }
 
-RankedCorrespondences
+void
+gatherClouds(const Side& source,
+             const FpfhCloud& from,
+             const Side& target,
+             const FpfhCloud& to,
+             double resolution,
+             bool viewpoints_known,
+             Matched& matched)
+{
+  const auto viewpoint = [&](const Side& side) {
+    return viewpoints_known ? side.viewpoint : std::nullopt;
+  };
+  matched.source.gather(from, source.shifted.shift, viewpoint(source));
+  matched.target.gather(to, target.shifted.shift, viewpoint(target));
+  matched.clouds = CloudPairView<double>{
+      matched.source.view(), matched.target.view(), resolution};
+}
+
+void
 matchClouds(const Options& options,
             const Inputs& inputs,
             const Progress& progress,
-            Outcome& outcome)
+            Outcome& outcome,
+            Matched& matched)
 {
   const Side source(*inputs.source);
   const Side target(*inputs.target);
   const auto match = [&](const auto&... points_and_features) {
     progress.say("matching");
     const Stopwatch matching;
-    auto matches = matchPoints(
+    matched.correspondences = matchPoints(
         points_and_features..., options.neighbors, options.mutual, options.threads);
     outcome.matching_ms = matching.milliseconds();
-    return matches;
   };
   if (inputs.source_features) {
     outcome.resolution =
         options.leaf ? *options.leaf : resolutionOfKeypoints(source, target);
-    return match(source.input.xyz,
-                 viewOf(*inputs.source_features),
-                 target.input.xyz,
-                 viewOf(*inputs.target_features));
+    match(source.input.xyz,
+          viewOf(*inputs.source_features),
+          target.input.xyz,
+          viewOf(*inputs.target_features));
+    return;
   }
   outcome.resolution =
       options.leaf ? *options.leaf : resolutionOfClouds(source, target);
@@ -187,10 +224,18 @@ matchClouds(const Options& options,
   progress.say("describing the target");
   const Keypoints to = describe(target, options, outcome);
   warnOfLongMatching(from, to, progress);
-  return match(from.xyz,
-               viewOf(*from.described.features),
-               to.xyz,
-               viewOf(*to.described.features));
+  match(from.xyz,
+        viewOf(*from.described.features),
+        to.xyz,
+        viewOf(*to.described.features));
+  if (!options.fast)
+    gatherClouds(source,
+                 from.described,
+                 target,
+                 to.described,
+                 *outcome.resolution,
+                 options.viewpoints_known,
+                 matched);
 }
 
 /** \brief For given correspondences: --leaf, or the voxel size of their own points, of
@@ -219,11 +264,12 @@ alignInputs(const Options& options, const Inputs& inputs, const Progress& progre
   if (inputs.correspondences)
     outcome.resolution = resolutionFor(options, *inputs.correspondences);
   const Stopwatch total;
-  RankedCorrespondences matched;
+  Matched matched;
   if (!inputs.correspondences)
-    matched = matchClouds(options, inputs, progress, outcome);
+    matchClouds(options, inputs, progress, outcome, matched);
+  const std::vector<float>& ranks = matched.correspondences.ranks;
   const io::Correspondences& given =
-      inputs.correspondences ? *inputs.correspondences : matched.points;
+      inputs.correspondences ? *inputs.correspondences : matched.correspondences.points;
   outcome.correspondences = given.size();
   outcome.parameters = options.parametersFor(outcome.resolution);
   progress.say("estimating the pose from " + std::to_string(given.size()) +
@@ -231,9 +277,11 @@ alignInputs(const Options& options, const Inputs& inputs, const Progress& progre
   const CorrespondenceView<double> view{given.source.data(),
                                         given.target.data(),
                                         given.size(),
-                                        matched.ranks.empty() ? nullptr
-                                                              : matched.ranks.data()};
-  outcome.result = estimator.estimate(view, outcome.parameters, inputs.guess);
+                                        ranks.empty() ? nullptr : ranks.data()};
+  outcome.result = estimator.estimate(view,
+                                      outcome.parameters,
+                                      inputs.guess,
+                                      matched.clouds ? &*matched.clouds : nullptr);
   outcome.total_ms = total.milliseconds();
   return outcome;
 }

@@ -81,17 +81,16 @@ formatVerdict(const Outcome& outcome)
   const Result& result = outcome.result;
   if (result.status != Status::Ok)
     return std::string("no pose found: ") + toString(result.status);
-  std::string rival = ", no other pose comes near";
-  if (std::isfinite(result.distinctness))
-    rival =
-        ", " + rounded(result.distinctness, 2) + " times those of the next best pose";
-  const std::string evidence =
-      std::to_string(result.inliers.size()) + " correspondences agree" + rival;
+  std::string evidence =
+      std::to_string(result.inliers.size()) + " correspondences agree";
+  if (result.evidence.has_clouds)
+    evidence += ", " + rounded(100 * result.evidence.agreement.matched, 0) +
+                " % of the points match";
+  evidence += ", confidence " + rounded(result.confidence, 2);
   if (result.converged)
     return "pose found and trusted: " + evidence;
   return "pose found, but NOT trusted: " + evidence +
-         " (needed: " + std::to_string(outcome.parameters.min_inliers) + ", and " +
-         rounded(outcome.parameters.min_distinctness, 2) + " times)";
+         " (needed: " + rounded(outcome.parameters.min_confidence, 2) + ")";
 }
 
 std::string

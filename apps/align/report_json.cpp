@@ -57,8 +57,26 @@ timingsOf(const Outcome& outcome)
           {"hypotheses", stages.hypotheses},
           {"verification", stages.verification},
           {"refinement", stages.refinement},
+          {"cloud_check", stages.cloud_check},
           {"estimation", stages.total},
           {"total", outcome.total_ms}};
+}
+
+Json
+evidenceOf(const Evidence& evidence)
+{
+  Json json = {{"inliers", evidence.inliers},
+               {"inlier_ratio", evidence.inlier_ratio},
+               {"rival_inliers", evidence.rival_inliers},
+               {"thickness", evidence.thickness}};
+  if (evidence.has_clouds) {
+    json["viewpoints"] = evidence.has_viewpoints;
+    json["matched"] = evidence.agreement.matched;
+    json["contradicted"] = evidence.agreement.contradicted;
+    json["lead"] = evidence.lead;
+    json["stiffness"] = evidence.stiffness;
+  }
+  return json;
 }
 
 Json
@@ -80,8 +98,7 @@ parametersOf(const Parameters& parameters)
           {"min_length_sum", parameters.min_length_sum},
           {"inlier_distance", parameters.inlier_distance},
           {"max_correspondences", parameters.max_correspondences},
-          {"min_inliers", parameters.min_inliers},
-          {"min_distinctness", parameters.min_distinctness}};
+          {"min_confidence", parameters.min_confidence}};
 }
 
 } // namespace
@@ -95,6 +112,7 @@ formatJson(const Options& options, const Outcome& outcome)
   json["source"] = options.source;
   json["target"] = options.target;
   json["converged"] = result.converged;
+  json["confidence"] = result.confidence;
   json["status"] = nameOf(result.status);
   json["transformation"] = rowsOf(result.T_target_source.toMatrix<double>());
   json["inliers"] = result.inliers.size();
@@ -103,6 +121,7 @@ formatJson(const Options& options, const Outcome& outcome)
   json["correspondences_invalid"] = result.correspondences_invalid;
   json["score"] = result.score;
   json["distinctness"] = result.distinctness;
+  json["evidence"] = evidenceOf(result.evidence);
   json["resolution"] = outcome.resolution ? Json(*outcome.resolution) : Json();
   json["parameters"] = parametersOf(outcome.parameters);
   json["backend"] = result.backend;

@@ -5,6 +5,7 @@
 
 #include <pcl_flashreg/estimator.h>
 #include <pcl_flashreg/fpfh_features.h>
+#include <pcl_flashreg/impl/cloud_buffer.hpp>
 #include <pcl_flashreg/impl/correspondence_buffer.hpp>
 #include <pcl_flashreg/impl/fpfh_cache.hpp>
 #include <pcl_flashreg/lazy_kdtree.h>
@@ -41,8 +42,8 @@ struct FlashRegistrationTimings {
  * estimateVoxelSize() where it does not, and the larger of source's and target's.
  * setMaxCorrespondenceDistance() sets the inlier distance over all of these.
  *
- * - hasConverged() is Result::converged, the verdict stated at
- *   Parameters::min_inliers, and the inlier fraction, where one is set.
+ * - hasConverged() is Result::converged: getConfidence() reaches
+ *   Parameters::min_confidence; and the inlier fraction, where one is set.
  *   getFinalTransformation() is the best pose even if it is not trusted; it is the
  *   identity, and the output a copy of the source, if getStatus() is not Status::Ok.
  * - align() never throws. What kept it from finding a pose is printed with PCL_ERROR
@@ -51,6 +52,10 @@ struct FlashRegistrationTimings {
  *   drop the descriptors of the cloud before: call them again after a cloud was edited
  *   in place. Descriptors of a target that stays are computed once as long as the
  *   resolution stays: set it, where many sources meet one target.
+ * - Where the class computes the descriptors, the keypoints of both clouds decide with
+ *   the correspondences which pose is right: setCloudCheck(). What lies between a
+ *   cloud's sensor_origin_ and its points is taken to be empty. Set it, if the sensor
+ *   stood elsewhere, or call setViewpointsKnown(false).
  * - A guess that is not the identity is scored as one more hypothesis. The final
  *   transformation is always from the source as given.
  * - setIndices() selects source points; features are still given for the full cloud.
@@ -226,6 +231,35 @@ public:
     estimator_.configure(backend, estimator_.numThreads());
   }
 
+  /** \brief Whether the clouds judge the hypotheses, too (the default); it costs a few
+   * milliseconds. Only where the class computes the descriptors. */
+  void
+  setCloudCheck(bool check)
+  {
+    cloud_check_ = check;
+  }
+
+  bool
+  getCloudCheck() const
+  {
+    return cloud_check_;
+  }
+
+  /** \brief Whether the sensors stood at the sensor_origin_ of their clouds (the
+   * default). Say no for clouds in a frame of another kind (merged scans, models):
+   * fewer poses are told from wrong ones, but none for a wrong reason. */
+  void
+  setViewpointsKnown(bool known)
+  {
+    viewpoints_known_ = known;
+  }
+
+  bool
+  getViewpointsKnown() const
+  {
+    return viewpoints_known_;
+  }
+
   /** \brief Fraction of the source points, in [0, 1], that must have a target point
    * within the inlier distance under the final pose for hasConverged(); 0 (the default)
    * for no such condition. */
@@ -285,6 +319,13 @@ public:
   getStatus() const
   {
     return result_.status;
+  }
+
+  /** \brief Probability that the pose is right, in [0, 1]: see Result::confidence. */
+  double
+  getConfidence() const
+  {
+    return result_.confidence;
   }
 
   const std::vector<Hypothesis>&
@@ -389,6 +430,10 @@ private:
   void
   matchComputedFeatures();
 
+  /** \brief Packs the keypoints, if they are to judge the hypotheses. */
+  void
+  gatherClouds(const FpfhCloud& source, const FpfhCloud& target);
+
   /** \brief Empty if all source points are used, as computeFpfh() wants it. */
   pcl::Indices
   sourceIndices() const;
@@ -430,7 +475,14 @@ private:
 
   detail::FpfhCache source_cache_;
   detail::FpfhCache target_cache_;
+  bool cloud_check_ = true;
+  bool viewpoints_known_ = true;
+
   detail::CorrespondenceBuffer buffer_;
+  detail::CloudBuffer<float> source_buffer_;
+  detail::CloudBuffer<float> target_buffer_;
+  /** \brief Of the two buffers; nothing where the clouds are not asked. */
+  std::optional<CloudPairView<float>> clouds_;
   detail::LazyEstimator estimator_;
 
   Result result_;

@@ -4,6 +4,7 @@
 #include "clouds/cloud_check.h"
 
 #include "clouds/plane_alignment.h"
+#include "confidence.h"
 #include "evidence.h"
 
 #include <algorithm>
@@ -25,6 +26,13 @@ constexpr float SAME_BEFORE = 6, SAME_AFTER = 10;
 
 /** \brief Shares of points below which nothing can be told. */
 constexpr double FLOOR = 0.01;
+
+/** \brief Evidence::lead at most. */
+constexpr double MAX_LEAD = 5;
+
+/** \brief A pose that is this certain without the viewpoints, and not with them, is
+ * believed: it is the viewpoints that are wrong. */
+constexpr double BELIEVED_BLINDLY = 0.95;
 
 struct Ranked {
   double evidence;
@@ -118,16 +126,52 @@ screen(const SurfacePair& clouds,
   }
 }
 
-} // namespace
-
+/** \brief What speaks for a pose, as a logarithm. */
 double
-evidenceOf(const CloudAgreement& agreement, int inlier_count)
+weightOf(const CheckedPose& pose, bool with_viewpoints)
 {
+  const CloudAgreement& agreement = pose.agreement;
   return std::log(agreement.matched + FLOOR) -
-         std::log(agreement.contradicted + FLOOR) + 0.5 * std::log(inlier_count + 5.0);
+         (with_viewpoints ? std::log(agreement.contradicted + FLOOR) : 0) +
+         0.5 * std::log(pose.inlier_count + 5.0);
 }
 
-std::vector<CheckedPose>
+/** \brief Ranks the poses and gathers the evidence for the best. */
+CloudFindings
+judge(const SurfacePair& clouds,
+      std::vector<CheckedPose> checked,
+      double half_side,
+      bool with_viewpoints)
+{
+  const auto weight = [&](const CheckedPose& pose) {
+    return weightOf(pose, with_viewpoints);
+  };
+  std::stable_sort(checked.begin(), checked.end(), [&](const auto& a, const auto& b) {
+    return weight(a) > weight(b);
+  });
+  CloudFindings findings;
+  std::vector<CheckedPose>& poses = findings.poses;
+  for (const CheckedPose& pose : checked)
+    if (std::none_of(poses.begin(), poses.end(), [&](const CheckedPose& other) {
+          return displacementOf(pose.pose, other.pose, half_side) <
+                 SAME_AFTER * clouds.spacing;
+        }))
+      poses.push_back(pose);
+  Evidence& evidence = findings.evidence;
+  evidence.inliers = poses.front().inlier_count;
+  evidence.has_clouds = true;
+  evidence.has_viewpoints = with_viewpoints;
+  evidence.agreement = poses.front().agreement;
+  evidence.lead = MAX_LEAD;
+  if (poses.size() > 1)
+    evidence.lead = std::min(MAX_LEAD, weight(poses[0]) - weight(poses[1]));
+  evidence.stiffness = stiffnessOf(clouds, poses.front().pose);
+  return findings;
+}
+
+} // namespace
+
+CloudFindings
 checkOnClouds(const SurfacePair& clouds,
               const Problem& problem,
               const std::vector<Pose>& hypotheses,
@@ -135,13 +179,14 @@ checkOnClouds(const SurfacePair& clouds,
               float inlier_distance,
               cpu::ThreadPool& pool)
 {
-  if (clouds.source.points.empty() || clouds.target.points.empty())
-    return {};
-  const double half_side = halfSideOf(clouds.source);
   std::vector<Pose> list;
   for (const ScoredPose& favourite : favourites)
     list.push_back(favourite.pose);
-  screen(clouds, hypotheses, half_side, list, pool);
+  if (clouds.source.points.empty() || clouds.target.points.empty() || list.empty())
+    return {};
+  const double half_side = halfSideOf(clouds.source);
+  if (clouds.oriented())
+    screen(clouds, hypotheses, half_side, list, pool);
 
   std::vector<CheckedPose> checked(list.size());
   pool.forEach(list.size(), [&](std::size_t i, std::size_t) {
@@ -150,19 +195,14 @@ checkOnClouds(const SurfacePair& clouds,
     result.agreement = agreementOf(clouds, result.pose, STUDY);
     result.inlier_count =
         static_cast<int>(inliersOf(problem, result.pose, inlier_distance).size());
-    result.evidence = evidenceOf(result.agreement, result.inlier_count);
   });
-  std::stable_sort(checked.begin(), checked.end(), [](const auto& a, const auto& b) {
-    return a.evidence > b.evidence;
-  });
-  std::vector<CheckedPose> distinct;
-  for (const CheckedPose& pose : checked)
-    if (std::none_of(distinct.begin(), distinct.end(), [&](const CheckedPose& other) {
-          return displacementOf(pose.pose, other.pose, half_side) <
-                 SAME_AFTER * clouds.spacing;
-        }))
-      distinct.push_back(pose);
-  return distinct;
+  CloudFindings blind = judge(clouds, checked, half_side, false);
+  if (!clouds.oriented())
+    return blind;
+  CloudFindings seeing = judge(clouds, std::move(checked), half_side, true);
+  const double enough =
+      std::max(BELIEVED_BLINDLY, confidenceOf(seeing.evidence));
+  return confidenceOf(blind.evidence) > enough ? blind : seeing;
 }
 
 } // namespace pcl_flashreg

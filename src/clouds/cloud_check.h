@@ -7,6 +7,8 @@
 #include "cpu/thread_pool.h"
 #include "problem.h"
 
+#include <pcl_flashreg/result.h>
+
 #include <vector>
 
 namespace pcl_flashreg {
@@ -16,26 +18,30 @@ struct CheckedPose {
   Pose pose;
   CloudAgreement agreement;
   int inlier_count = 0;
-  /** \brief See evidenceOf(). */
-  double evidence = 0;
 };
 
-/** \brief What speaks for a pose: the logarithm of
- * (matched + 1 %) / (contradicted + 1 %) * sqrt(inliers + 5). */
-double
-evidenceOf(const CloudAgreement& agreement, int inlier_count);
+/** \brief What the clouds have to say. */
+struct CloudFindings {
+  /** \brief Distinct poses, best first. */
+  std::vector<CheckedPose> poses;
+  /** \brief For the best pose; what comes from correspondences alone is not filled in,
+   * but for the inliers. */
+  Evidence evidence;
+};
 
 /** \brief Asks the clouds which of many hypotheses is right.
  *
- * All of them are screened on a few points, and the best again on more; the best dozen
- * that differ, and the favourites, are moved onto the target's surface and judged on all
- * that is known. The same on any number of threads.
+ * Where both viewpoints are known, all hypotheses are screened on a few points, and the
+ * best again on more. The best dozen that differ, and the favourites, are moved onto the
+ * target's surface and judged on all that is known: by (matched + 1 %) /
+ * (contradicted + 1 %) * sqrt(inliers + 5), or without the denominator, if the viewpoints
+ * are not known or not to be believed. The same on any number of threads.
  * \param[in] hypotheses to be screened, in the centred frames of the problem
  * \param[in] favourites poses that skip the screening
  * \param[in] inlier_distance as in Parameters
- * \return the distinct ones, by evidence, descending; empty if a cloud has no points
+ * \return no pose, if a cloud has no points
  */
-std::vector<CheckedPose>
+CloudFindings
 checkOnClouds(const SurfacePair& clouds,
               const Problem& problem,
               const std::vector<Pose>& hypotheses,

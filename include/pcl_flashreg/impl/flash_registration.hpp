@@ -165,7 +165,8 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::computeTransformation(
     findCorrespondences();
     const Parameters parameters = getParameters();
     inlier_distance_ = parameters.inlier_distance;
-    result_ = estimator_.get().estimate(buffer_.view(), parameters, hypothesis);
+    result_ = estimator_.get().estimate(
+        buffer_.view(), parameters, hypothesis, clouds_ ? &*clouds_ : nullptr);
     timings_.estimation = result_.timings_ms;
     if (result_.status == Status::Ok)
       applyResult(output);

@@ -45,6 +45,7 @@ template <typename PointSource, typename PointTarget, typename FeatureT>
 void
 FlashRegistration<PointSource, PointTarget, FeatureT>::findCorrespondences()
 {
+  clouds_.reset();
   if (given_correspondences_)
     takeGivenCorrespondences();
   else if (source_features_ || target_features_)
@@ -121,6 +122,24 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::matchComputedFeatures()
     correspondences_->emplace_back(match.query, match.match, match.squared_distance);
   timings_.matching = matching.milliseconds();
   buffer_.gather(*source.points, *target.points, *correspondences_);
+  if (cloud_check_)
+    gatherClouds(source, target);
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::gatherClouds(
+    const FpfhCloud& source, const FpfhCloud& target)
+{
+  const auto viewpoint = [this](const auto& cloud) -> std::optional<Eigen::Vector3d> {
+    if (!viewpoints_known_)
+      return std::nullopt;
+    return cloud.sensor_origin_.template head<3>().template cast<double>();
+  };
+  source_buffer_.gather(source, Eigen::Vector3f::Zero(), viewpoint(*input_));
+  target_buffer_.gather(target, Eigen::Vector3f::Zero(), viewpoint(*target_));
+  clouds_ = CloudPairView<float>{
+      source_buffer_.view(), target_buffer_.view(), getResolution()};
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>

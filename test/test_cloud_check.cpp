@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+// The clouds as judges of poses: each part against a plain oracle, then the whole.
+
+#include "support/made_correspondences.h"
+
+#include "clouds/agreement.h"
+#include "clouds/plane_alignment.h"
+#include "confidence.h"
+
+#include <pcl_flashreg/estimator.h>
+
+#include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_flashreg {
+namespace {
+
+constexpr double SPACING = 0.05;
+
+/** \brief Points with normals, drawn with noise from a floor and two walls that meet in a
+ * corner, as a sensor sees them from the middle. */
+struct Corner {
+  std::vector<double> xyz;
+  std::vector<float> normals;
+  Eigen::Vector3d viewpoint{1.2, 1.0, 1.0};
+
+  explicit Corner(std::uint64_t seed, int walls = 3) : random(seed)
+  {
+    if (walls == 3) {
+      wall({0, 0, 0}, {2.4, 0, 0}, {0, 2, 0}); // the floor
+      wall({0, 0, 0}, {2.4, 0, 0}, {0, 0, 2});
+    }
+    wall({0, 0, 0}, {0, 2, 0}, {0, 0, 2});
+  }
+
+  void
+  wall(const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+  {
+    Eigen::Vector3d normal = a.cross(b).normalized();
+    if (normal.dot(viewpoint - corner) < 0)
+      normal = -normal;
+    for (double u = 0.5 * SPACING; u < a.norm(); u += SPACING)
+      for (double v = 0.5 * SPACING; v < b.norm(); v += SPACING) {
+        const double x = random.normal(), y = random.normal(), z = random.normal();
+        const Eigen::Vector3d p = corner + u * a.normalized() + v * b.normalized() +
+                                  0.05 * SPACING * Eigen::Vector3d(x, y, z);
+        xyz.insert(xyz.end(), p.data(), p.data() + 3);
+        const Eigen::Vector3f n = normal.cast<float>();
+        normals.insert(normals.end(), n.data(), n.data() + 3);
+      }
+  }
+
+  Corner
+  moved(const Eigen::Isometry3d& T) const
+  {
+    Corner result = *this;
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      const Eigen::Vector3d p = T * Eigen::Vector3d(&xyz[i]);
+      const Eigen::Vector3f n = T.linear().cast<float>() * Eigen::Vector3f(&normals[i]);
+      std::copy_n(p.data(), 3, &result.xyz[i]);
+      std::copy_n(n.data(), 3, &result.normals[i]);
+    }
+    result.viewpoint = T * viewpoint;
+    return result;
+  }
+
+  CloudView<double>
+  view(bool with_viewpoint = true) const
+  {
+    CloudView<double> view{xyz.data(), normals.data(), xyz.size() / 3, std::nullopt};
+    if (with_viewpoint)
+      view.viewpoint = viewpoint;
+    return view;
+  }
+
+  made::Random random;
+};
+
+Surface
+surfaceOf(const CloudView<double>& view)
+{
+  Surface surface;
+  surface.build(view, {0, 0, 0}, SPACING);
+  return surface;
+}
+
+Pose
+poseOf(const Eigen::Isometry3d& T)
+{
+  Pose pose;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.r) = T.linear();
+  Eigen::Map<Eigen::Vector3d>(pose.t) = T.translation();
+  return pose;
+}
+
+Eigen::Isometry3d
+motion(double degrees, const Eigen::Vector3d& shift)
+{
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::AngleAxisd(degrees * 3.14159265358979323846 / 180,
+                                 Eigen::Vector3d(1, 2, 3).normalized())
+                   .toRotationMatrix();
+  T.translation() = shift;
+  return T;
+}
+
+TEST(NearestPointGrid, AgreesWithExhaustiveSearchToWithinACell)
+{
+  made::Random random(3);
+  const auto place = [&](double reach) {
+    const double x = random.uniform(-reach, reach), y = random.uniform(-reach, reach),
+                 z = random.uniform(-reach, reach);
+    return Eigen::Vector3f(x, y, z);
+  };
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 400; ++i)
+    points.push_back(place(1));
+  NearestPointGrid grid;
+  grid.build(points, 0.1f);
+  int found = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Eigen::Vector3f query = place(1.5);
+    float nearest = INFINITY;
+    for (const Eigen::Vector3f& point : points)
+      nearest = std::min(nearest, (point - query).norm());
+    const int answer = grid.find(query);
+    found += answer >= 0;
+    if (answer >= 0) {
+      EXPECT_LE((points[answer] - query).norm(), nearest + 0.1f * std::sqrt(3.0f));
+    }
+    else {
+      EXPECT_GT(nearest, 0.14f);
+    }
+  }
+  EXPECT_GT(found, 1000);
+  EXPECT_EQ(grid.find({1e30f, 0, 0}), -1);
+  EXPECT_EQ(grid.find({NAN, 0, 0}), -1);
+}
+
+TEST(FreeSpace, IsWhatLiesInFrontOfTheSurface)
+{
+  std::vector<Eigen::Vector3f> wall;
+  for (float x = -1; x <= 1; x += 0.05f)
+    for (float y = -1; y <= 1; y += 0.05f)
+      wall.emplace_back(x, y, 2);
+  FreeSpace space;
+  EXPECT_FALSE(space.known());
+  EXPECT_FALSE(space.contains({0, 0, 1}));
+  space.build(wall, {0, 0, 0}, 0.05f);
+  EXPECT_TRUE(space.known());
+  EXPECT_TRUE(space.contains({0.1f, 0.1f, 1}));
+  EXPECT_TRUE(space.contains({0, 0, 1.7f}));
+  EXPECT_FALSE(space.contains({0, 0, 1.95f})) << "within the margin";
+  EXPECT_FALSE(space.contains({0, 0, 3})) << "behind the wall";
+  EXPECT_FALSE(space.contains({0, 0, -1})) << "behind the sensor";
+  EXPECT_FALSE(space.contains({3, 0, 1})) << "nothing was seen there";
+  space.clear();
+  EXPECT_FALSE(space.contains({0, 0, 1}));
+}
+
+TEST(CloudAgreement, TellsAMatchFromAContradiction)
+{
+  const Corner corner(1), other(2);
+  const Surface source = surfaceOf(corner.view()), target = surfaceOf(other.view());
+  const SurfacePair clouds{source, target, SPACING};
+  const Effort effort{1000, 1.5f};
+  const CloudAgreement same =
+      agreementOf(clouds, poseOf(Eigen::Isometry3d::Identity()), effort);
+  EXPECT_GT(same.matched, 0.9);
+  EXPECT_EQ(same.contradicted, 0);
+
+  // Half a metre along x: floor and one wall still match, the other wall hangs in the
+  // air that the sensor looked through.
+  const Pose slid = poseOf(motion(0, {0.5, 0, 0}));
+  const CloudAgreement sliding = agreementOf(clouds, slid, effort);
+  EXPECT_GT(sliding.matched, 0.4);
+  EXPECT_GT(sliding.contradicted, 0.05);
+
+  const Surface blind = surfaceOf(corner.view(false));
+  EXPECT_EQ(agreementOf({blind, surfaceOf(other.view(false)), SPACING}, slid, effort)
+                .contradicted,
+            0);
+
+  // Turned over, the floor lies on itself, but faces the other way.
+  Eigen::Isometry3d over = Eigen::Isometry3d::Identity();
+  over.linear() = Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitX())
+                      .toRotationMatrix();
+  over.translation().y() = 2;
+  EXPECT_LT(agreementOf(clouds, poseOf(over), effort).matched, 0.1);
+}
+
+TEST(PlaneAlignment, MovesAPoseOntoTheSurface)
+{
+  const Corner corner(1), other(2);
+  const Surface source = surfaceOf(corner.view()), target = surfaceOf(other.view());
+  const SurfacePair clouds{source, target, SPACING};
+  const Pose moved =
+      moveOntoTarget(clouds, poseOf(motion(1.5, {0.02, -0.03, 0.025})));
+  for (const Eigen::Vector3d& p :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2.4, 2, 2)}) {
+    const Vec3 at = transform(moved, {p.x(), p.y(), p.z()});
+    EXPECT_LT((Eigen::Vector3d(at.x, at.y, at.z) - p).norm(), 0.2 * SPACING);
+  }
+}
+
+TEST(PlaneAlignment, AWallAloneHoldsNothing)
+{
+  const Surface corner = surfaceOf(Corner(1).view());
+  const Surface wall = surfaceOf(Corner(1, 1).view());
+  const Pose identity = poseOf(Eigen::Isometry3d::Identity());
+  EXPECT_GT(stiffnessOf({corner, corner, SPACING}, identity), 0.02);
+  EXPECT_LT(stiffnessOf({wall, wall, SPACING}, identity), 1e-6);
+}
+
+/** \brief A corner seen twice, and correspondences of which more agree with a wrong motion
+ * than with the right one. */
+struct Deceived {
+  Corner target{2};
+  Eigen::Isometry3d T_target_source = motion(40, {1, -2, 0.5});
+  Corner source = Corner(1).moved(T_target_source.inverse());
+  std::vector<double> source_xyz, target_xyz;
+
+  Deceived()
+  {
+    made::Random random(7);
+    const Eigen::Isometry3d slid = motion(0, {0.6, 0, 0}) * T_target_source;
+    for (int i = 0; i < 100; ++i) {
+      const std::size_t row = static_cast<std::size_t>(
+          random.uniform(0, static_cast<double>(source.xyz.size() / 3)));
+      const Eigen::Vector3d s(&source.xyz[3 * row]);
+      const Eigen::Vector3d t = (i < 40 ? T_target_source : slid) * s;
+      source_xyz.insert(source_xyz.end(), s.data(), s.data() + 3);
+      target_xyz.insert(target_xyz.end(), t.data(), t.data() + 3);
+    }
+  }
+
+  CorrespondenceView<double>
+  view() const
+  {
+    return {source_xyz.data(), target_xyz.data(), source_xyz.size() / 3, nullptr};
+  }
+
+  CloudPairView<double>
+  clouds(bool with_viewpoints = true) const
+  {
+    return {source.view(with_viewpoints), target.view(with_viewpoints), SPACING};
+  }
+
+  double
+  error(const Result& result) const
+  {
+    return (result.T_target_source.toIsometry() * source.viewpoint - target.viewpoint)
+        .norm();
+  }
+};
+
+TEST(Estimator, LetsTheCloudsChoose)
+{
+  const Deceived deceived;
+  const Result blind = Estimator().estimate(deceived.view());
+  EXPECT_NEAR(deceived.error(blind), 0.6, 0.05) << "the test needs a wrong majority";
+  EXPECT_FALSE(blind.evidence.has_clouds);
+  EXPECT_FALSE(blind.hypotheses.front().agreement);
+
+  for (const bool viewpoints : {true, false}) {
+    const auto clouds = deceived.clouds(viewpoints);
+    const Result result =
+        Estimator().estimate(deceived.view(), {}, std::nullopt, &clouds);
+    ASSERT_EQ(result.status, Status::Ok);
+    EXPECT_LT(deceived.error(result), 0.3 * SPACING) << viewpoints;
+    EXPECT_EQ(result.inliers.size(), 40u);
+    EXPECT_EQ(result.score, 40);
+    EXPECT_TRUE(result.evidence.has_clouds);
+    EXPECT_EQ(result.evidence.inliers, 40);
+    EXPECT_EQ(result.evidence.rival_inliers, 60);
+    ASSERT_TRUE(result.hypotheses.front().agreement);
+    EXPECT_GT(result.hypotheses.front().agreement->matched, 0.85);
+    EXPECT_GT(result.evidence.lead, 0);
+    EXPECT_EQ(result.confidence, confidenceOf(result.evidence));
+    EXPECT_EQ(result.converged, result.confidence >= Parameters().min_confidence);
+  }
+}
+
+TEST(Estimator, SaysTheSameOfCloudsOnAnyNumberOfThreads)
+{
+  const Deceived deceived;
+  const auto clouds = deceived.clouds();
+  const Result one =
+      Estimator(BackendKind::Cpu, 1).estimate(deceived.view(), {}, {}, &clouds);
+  const Result four =
+      Estimator(BackendKind::Cpu, 4).estimate(deceived.view(), {}, {}, &clouds);
+  EXPECT_EQ(one.T_target_source.toMatrix<double>(),
+            four.T_target_source.toMatrix<double>());
+  EXPECT_EQ(one.confidence, four.confidence);
+  EXPECT_EQ(one.inliers, four.inliers);
+  EXPECT_EQ(one.hypotheses.size(), four.hypotheses.size());
+}
+
+TEST(Estimator, WorksFarFromTheOriginWithClouds)
+{
+  const Deceived deceived;
+  Deceived far = deceived;
+  const Eigen::Vector3d away(5e5, 4e6, 100);
+  for (auto* xyz : {&far.target.xyz, &far.target_xyz})
+    for (std::size_t i = 0; i < xyz->size(); ++i)
+      (*xyz)[i] += away[i % 3];
+  far.target.viewpoint += away;
+  const auto clouds = far.clouds();
+  const Result result = Estimator().estimate(far.view(), {}, {}, &clouds);
+  EXPECT_LT(far.error(result), 0.3 * SPACING);
+}
+
+TEST(Estimator, ManagesWithoutAnyPointInTheClouds)
+{
+  const Deceived deceived;
+  CloudPairView<double> clouds;
+  clouds.spacing = SPACING;
+  const Result result = Estimator().estimate(deceived.view(), {}, {}, &clouds);
+  EXPECT_EQ(result.status, Status::Ok);
+  EXPECT_FALSE(result.evidence.has_clouds);
+  EXPECT_EQ(result.inliers.size(), 60u);
+
+  std::vector<float> normals(deceived.source.normals.size(), NAN);
+  clouds = deceived.clouds();
+  clouds.source.normals = normals.data();
+  EXPECT_FALSE(
+      Estimator().estimate(deceived.view(), {}, {}, &clouds).evidence.has_clouds);
+}
+
+TEST(Estimator, RefusesCloudsThatCannotBe)
+{
+  const Deceived deceived;
+  CloudPairView<double> clouds = deceived.clouds();
+  clouds.spacing = 0;
+  EXPECT_THROW(Estimator().estimate(deceived.view(), {}, {}, &clouds),
+               std::invalid_argument);
+  clouds = deceived.clouds();
+  clouds.target.normals = nullptr;
+  EXPECT_THROW(Estimator().estimate(deceived.view(), {}, {}, &clouds),
+               std::invalid_argument);
+}
+
+TEST(Confidence, GrowsWithWhatSpeaksForAPose)
+{
+  Evidence evidence;
+  evidence.inliers = 60;
+  evidence.inlier_ratio = 0.02;
+  evidence.rival_inliers = 30;
+  evidence.thickness = 8;
+  Evidence better = evidence;
+  better.inliers = 120;
+  EXPECT_GT(confidenceOf(better), confidenceOf(evidence));
+  better = evidence;
+  better.thickness = 16;
+  EXPECT_GT(confidenceOf(better), confidenceOf(evidence));
+  better.inliers = better.rival_inliers = 1000;
+  better.inlier_ratio = 0.5;
+  EXPECT_LE(confidenceOf(better), 0.5) << "there is another pose as good";
+
+  evidence.has_clouds = evidence.has_viewpoints = true;
+  evidence.agreement = {0.3, 0.01};
+  evidence.lead = 1;
+  evidence.stiffness = 0.02;
+  const double p = confidenceOf(evidence);
+  better = evidence;
+  better.agreement.contradicted = 0.1;
+  EXPECT_LT(confidenceOf(better), p);
+  better = evidence;
+  better.lead = 2;
+  EXPECT_GT(confidenceOf(better), p);
+  better = evidence;
+  better.stiffness = 0.002;
+  EXPECT_LT(confidenceOf(better), p);
+  EXPECT_GT(p, 0);
+  EXPECT_LT(p, 1);
+}
+
+} // namespace
+} // namespace pcl_flashreg
