@@ -37,18 +37,18 @@ fromCorrespondences(const Evidence& e)
 double
 fromClouds(const Evidence& e)
 {
-  return logistic(-22.16 + 0.84 * std::log(e.agreement.matched + 0.01) -
-                  4.22 * std::log(e.agreement.contradicted + 0.01) +
-                  2.52 * std::log(e.inliers + 5) + 1.36 * e.lead +
-                  1.25 * std::log(e.stiffness + 0.001));
+  return logistic(-23.59 + 0.87 * std::log(e.agreement.matched + 0.01) -
+                  4.64 * std::log(e.agreement.contradicted + 0.01) +
+                  2.42 * std::log(e.inliers + 5) + 1.27 * e.lead +
+                  1.23 * std::log(e.stiffness + 0.001));
 }
 
 double
 fromCloudsWithoutViewpoints(const Evidence& e)
 {
-  return logistic(-10.05 - 0.76 * std::log(e.agreement.matched + 0.01) +
-                  3.83 * std::log(e.inliers + 5) + 0.38 * e.lead +
-                  1.95 * std::log(e.stiffness + 0.001));
+  return logistic(-10.02 - 0.76 * std::log(e.agreement.matched + 0.01) +
+                  3.80 * std::log(e.inliers + 5) + 0.38 * e.lead +
+                  1.94 * std::log(e.stiffness + 0.001));
 }
 
 } // namespace

@@ -112,7 +112,7 @@ TEST_F(FlashRegistrationTest, CopiesWorkOnTheirOwn)
   EXPECT_FALSE(copy.hasConverged());
   copy.align(output);
   EXPECT_TRUE(copy.hasConverged());
-  EXPECT_TRUE(copy.getFinalTransformation().isIdentity(1e-3));
+  EXPECT_TRUE(copy.getFinalTransformation().isIdentity(0.1f * room_resolution));
   expectFound();
   EXPECT_FALSE(registration.getInlierCorrespondences().empty());
 }
