@@ -46,7 +46,7 @@ fromClouds(const Evidence& e)
 double
 fromCloudsWithoutViewpoints(const Evidence& e)
 {
-  return logistic(-10.02 - 0.76 * std::log(e.agreement.matched + 0.01) +
+  return logistic(-10.01 - 0.76 * std::log(e.agreement.matched + 0.01) +
                   3.80 * std::log(e.inliers + 5) + 0.38 * e.lead +
                   1.94 * std::log(e.stiffness + 0.001));
 }
