@@ -3,8 +3,7 @@
 # Copyright (c) the pcl_flashreg authors
 """Fits the coefficients of src/confidence.cpp to rows of pcl_flashreg_evaluate.
 
-Reads CSV files with the columns dataset, source, target, success and the fields of
-Evidence. Three logistic regressions: correspondences alone, clouds with viewpoints, clouds
+Reads CSV files of the methods flashreg_fast, flashreg and flashreg_no_viewpoint. Three logistic regressions: correspondences alone, clouds with viewpoints, clouds
 without. Cross-validated by scene: a pair is judged by coefficients that no pair with a
 cloud of its source's scene had a part in. Needs numpy; --plot also matplotlib.
 
@@ -28,7 +27,7 @@ def features_of_correspondences(row):
     inliers = row["inliers"]
     return [
         np.log(inliers + 1),
-        np.log(row["inlier_ratio"] + 1e-4),
+        np.log(row["agreeing_ratio"] + 1e-4),
         np.log((inliers + 1) / (row["rival_inliers"] + 3)),
         np.log(row["thickness"] + 1),
     ]
@@ -86,6 +85,8 @@ def read(path):
                     row[name] = float(text)
                 except ValueError:
                     row[name] = text
+            if row["rival_inliers"] == "":
+                continue  # another method, without this evidence
             row["scenes"] = {scene_of(row["source"]), scene_of(row["target"])}
             rows.append(row)
     return rows

@@ -26,11 +26,10 @@ limitByRival(const Evidence& e)
 double
 fromCorrespondences(const Evidence& e)
 {
-  const double p =
-      logistic(-11.63 + 3.23 * std::log(e.inliers + 1) +
-               1.87 * std::log(e.inlier_ratio + 1e-4) +
-               0.34 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
-               1.62 * std::log(e.thickness + 1));
+  const double p = logistic(-11.63 + 3.23 * std::log(e.inliers + 1) +
+                            1.87 * std::log(e.inlier_ratio + 1e-4) +
+                            0.34 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
+                            1.62 * std::log(e.thickness + 1));
   return std::min(p, limitByRival(e));
 }
 

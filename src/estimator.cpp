@@ -217,11 +217,11 @@ Estimator::Impl::fill(Result& result,
   if (estimate.status != Status::Ok)
     return;
   for (const ScoredPose& hypothesis : estimate.hypotheses)
-    result.hypotheses.push_back({toOriginal(hypothesis.pose),
-                                 hypothesis.inlier_count,
-                                 static_cast<double>(hypothesis.score) /
-                                     static_cast<double>(SCORE_UNIT),
-                                 std::nullopt});
+    result.hypotheses.push_back(
+        {toOriginal(hypothesis.pose),
+         hypothesis.inlier_count,
+         static_cast<double>(hypothesis.score) / static_cast<double>(SCORE_UNIT),
+         std::nullopt});
   result.T_target_source = result.hypotheses.front().T_target_source;
   result.score = result.hypotheses.front().score;
   for (const int i : estimate.inliers)

@@ -235,10 +235,11 @@ TEST_F(CliTest, optionsReachTheEstimator)
 {
   writeRoom("source.pcd", "target.pcd");
   const std::string common = "source.pcd target.pcd --leaf 0.1 --json - ";
-  const auto json = align(common + "--length-tolerance 0.02 --max-correspondences 100 "
-                                   "--second-order bounded --score mse --min-confidence 0.3 "
-                                   "--max-hypotheses 2 --backend cpu")
-                        .json();
+  const auto json =
+      align(common + "--length-tolerance 0.02 --max-correspondences 100 "
+                     "--second-order bounded --score mse --min-confidence 0.3 "
+                     "--max-hypotheses 2 --backend cpu")
+          .json();
   EXPECT_NEAR(json.at("parameters").at("length_tolerance").get<double>(), 0.02, 1e-8);
   EXPECT_NEAR(json.at("parameters").at("inlier_distance").get<double>(), 0.2, 1e-8);
   EXPECT_EQ(json.at("correspondences_dropped").get<int>(),

@@ -40,7 +40,9 @@ struct Corner {
   }
 
   void
-  wall(const Eigen::Vector3d& corner, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+  wall(const Eigen::Vector3d& corner,
+       const Eigen::Vector3d& a,
+       const Eigen::Vector3d& b)
   {
     Eigen::Vector3d normal = a.cross(b).normalized();
     if (normal.dot(viewpoint - corner) < 0)
@@ -200,8 +202,7 @@ TEST(PlaneAlignment, MovesAPoseOntoTheSurface)
   const Corner corner(1), other(2);
   const Surface source = surfaceOf(corner.view()), target = surfaceOf(other.view());
   const SurfacePair clouds{source, target, SPACING};
-  const Pose moved =
-      moveOntoTarget(clouds, poseOf(motion(1.5, {0.02, -0.03, 0.025})));
+  const Pose moved = moveOntoTarget(clouds, poseOf(motion(1.5, {0.02, -0.03, 0.025})));
   for (const Eigen::Vector3d& p :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2.4, 2, 2)}) {
     const Vec3 at = transform(moved, {p.x(), p.y(), p.z()});

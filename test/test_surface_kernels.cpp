@@ -289,7 +289,7 @@ TEST(Symmetric3, HasTheSmallestEigenpairOfEigen)
   }
 }
 
-TEST(Symmetric3, OfALineIsPerpendicularToIt)
+TEST(Symmetric3, OfALineHasNoDirection)
 {
   for (const Eigen::Vector3d& line : {Eigen::Vector3d(1, 0, 0),
                                       Eigen::Vector3d(0, 1, 0),
@@ -298,10 +298,7 @@ TEST(Symmetric3, OfALineIsPerpendicularToIt)
     const Eigen::Matrix3d C = line * line.transpose();
     const Symmetric3 a{C(0, 0), C(0, 1), C(0, 2), C(1, 1), C(1, 2), C(2, 2)};
     Vec3 direction;
-    ASSERT_TRUE(smallestEigenvector(a, smallestEigenvalue(a), direction));
-    const Eigen::Vector3d found(direction.x, direction.y, direction.z);
-    EXPECT_NEAR(found.norm(), 1, 1e-12);
-    EXPECT_NEAR(found.dot(line), 0, 1e-6);
+    EXPECT_FALSE(smallestEigenvector(a, smallestEigenvalue(a), direction));
   }
 }
 

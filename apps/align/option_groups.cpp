@@ -140,11 +140,12 @@ addPipeline(CLI::App& app, Options& options, Words& words)
                wrapped("Judge poses by the correspondences alone: a few milliseconds "
                        "less, fewer right poses, a weaker verdict"))
       ->group(group);
-  app.add_flag("--no-viewpoint{false}",
-               options.viewpoints_known,
-               wrapped("The sensors did not stand at the VIEWPOINT of their clouds (the "
-                       "origin, where a file states none): don't take the space "
-                       "between it and the points for empty"))
+  app.add_flag(
+         "--no-viewpoint{false}",
+         options.viewpoints_known,
+         wrapped("The sensors did not stand at the VIEWPOINT of their clouds (the "
+                 "origin, where a file states none): don't take the space "
+                 "between it and the points for empty"))
       ->group(group);
   app.add_option("--backend", words.backend, wrapped("auto, cpu or cuda"))
       ->capture_default_str()

@@ -188,8 +188,8 @@ gatherClouds(const Side& source,
   };
   matched.source.gather(from, source.shifted.shift, viewpoint(source));
   matched.target.gather(to, target.shifted.shift, viewpoint(target));
-  matched.clouds = CloudPairView<double>{
-      matched.source.view(), matched.target.view(), resolution};
+  matched.clouds =
+      CloudPairView<double>{matched.source.view(), matched.target.view(), resolution};
 }
 
 void

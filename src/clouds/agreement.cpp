@@ -54,8 +54,8 @@ look(const Surface& from,
     const int neighbor = to.nearest.find(place);
     if (neighbor >= 0) {
       const float squared = (place - to.points[neighbor]).squaredNorm();
-      const float cosine = alignmentOf(
-          pose.rotation * from.normals[i], to.normals[neighbor], oriented);
+      const float cosine =
+          alignmentOf(pose.rotation * from.normals[i], to.normals[neighbor], oriented);
       if (squared < limit * limit && cosine > MIN_COSINE) {
         sums.matched += matchOf(to, neighbor, place, cosine, limit);
         continue;
@@ -75,8 +75,8 @@ agreementOf(const SurfacePair& clouds, const Pose& pose, const Effort& effort)
 {
   const RigidFloat forward = toRigidFloat(pose);
   const bool oriented = clouds.oriented();
-  const Sums there = look(
-      clouds.source, clouds.target, forward, clouds.spacing, oriented, effort);
+  const Sums there =
+      look(clouds.source, clouds.target, forward, clouds.spacing, oriented, effort);
   const Sums back = look(
       clouds.target, clouds.source, inverse(forward), clouds.spacing, oriented, effort);
   // Each side counts by the number of its points, however many were looked at.

@@ -61,12 +61,13 @@ rank(const SurfacePair& clouds,
      cpu::ThreadPool& pool)
 {
   constexpr std::size_t A_TASK = 32;
-  pool.forEach((ranked.size() + A_TASK - 1) / A_TASK, [&](std::size_t task, std::size_t) {
-    const std::size_t end = std::min(ranked.size(), (task + 1) * A_TASK);
-    for (std::size_t i = task * A_TASK; i < end; ++i)
-      ranked[i].evidence =
-          evidenceOf(agreementOf(clouds, hypotheses[ranked[i].hypothesis], effort));
-  });
+  pool.forEach(
+      (ranked.size() + A_TASK - 1) / A_TASK, [&](std::size_t task, std::size_t) {
+        const std::size_t end = std::min(ranked.size(), (task + 1) * A_TASK);
+        for (std::size_t i = task * A_TASK; i < end; ++i)
+          ranked[i].evidence =
+              evidenceOf(agreementOf(clouds, hypotheses[ranked[i].hypothesis], effort));
+      });
 }
 
 /** \brief Largest displacement between two poses over the corners of a cube of this half
@@ -200,8 +201,7 @@ checkOnClouds(const SurfacePair& clouds,
   if (!clouds.oriented())
     return blind;
   CloudFindings seeing = judge(clouds, std::move(checked), half_side, true);
-  const double enough =
-      std::max(BELIEVED_BLINDLY, confidenceOf(seeing.evidence));
+  const double enough = std::max(BELIEVED_BLINDLY, confidenceOf(seeing.evidence));
   return confidenceOf(blind.evidence) > enough ? blind : seeing;
 }
 

@@ -113,8 +113,7 @@ step(const std::vector<Pull>& pulls, float softness, RigidFloat& pose)
     spread += arm.squaredNorm();
   }
   hessian.diagonal().head<3>().array() += STIFFNESS * spread;
-  hessian.diagonal().tail<3>().array() +=
-      STIFFNESS * static_cast<double>(pulls.size());
+  hessian.diagonal().tail<3>().array() += STIFFNESS * static_cast<double>(pulls.size());
   const Vector6 motion = -hessian.ldlt().solve(gradient);
   const Eigen::Vector3d turn = motion.head<3>();
   const double angle = turn.norm();

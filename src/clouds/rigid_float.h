@@ -32,8 +32,7 @@ toRigidFloat(const Pose& pose)
 inline RigidFloat
 inverse(const RigidFloat& pose)
 {
-  return {pose.rotation.transpose(),
-          -(pose.rotation.transpose() * pose.translation)};
+  return {pose.rotation.transpose(), -(pose.rotation.transpose() * pose.translation)};
 }
 
 } // namespace pcl_flashreg

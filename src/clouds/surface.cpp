@@ -24,7 +24,8 @@ Surface::build(const CloudView<Scalar>& cloud, const Vec3& centre, float spacing
   }
   nearest.build(points, spacing);
   if (cloud.viewpoint && cloud.viewpoint->allFinite())
-    free_space.build(points, (*cloud.viewpoint - origin).template cast<float>(), spacing);
+    free_space.build(
+        points, (*cloud.viewpoint - origin).template cast<float>(), spacing);
   else
     free_space.clear();
 }

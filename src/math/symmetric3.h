@@ -41,9 +41,10 @@ smallestEigenvalue(const Symmetric3& a)
   return root;
 }
 
-/** \brief A unit eigenvector of the smallest eigenvalue; any one of them where there are
- * several (points on a line, or spread alike in all directions).
- * \return false if the matrix is zero or not finite
+/** \brief A unit eigenvector of the smallest eigenvalue; any one where the spread is alike in
+ * all directions.
+ * \return false if there is no such direction: the matrix is zero, not finite, or that of
+ * points on a line
  */
 PCL_FLASHREG_HD inline bool
 smallestEigenvector(const Symmetric3& a, double eigenvalue, Vec3& direction)
@@ -69,11 +70,9 @@ smallestEigenvector(const Symmetric3& a, double eigenvalue, Vec3& direction)
     direction = {0, 0, 1};
     return eigenvalue > 0 && eigenvalue < HUGE_VAL;
   }
-  if (!(dot(best, best) > 1e-24 * scale * scale)) {
-    // A line: whatever is perpendicular to the row that is left.
-    const bool x_is_small = fabs(longest.x) < fabs(longest.z);
-    best = cross(longest, x_is_small ? Vec3{1, 0, 0} : Vec3{0, 0, 1});
-  }
+  // A line, but for what sums in single precision leave.
+  if (!(dot(best, best) > 1e-12 * scale * scale))
+    return false;
   const double length = sqrt(dot(best, best));
   if (!(length > 0) || !(length < HUGE_VAL))
     return false;

@@ -19,6 +19,8 @@ struct Pair {
   /** \brief File of correspondences; empty if they are to be made from the clouds.
    * "a_{src,dst}.txt" stands for two files of points. */
   std::string correspondences;
+  /** \brief The translation is not a number where no pose is right: the clouds do not
+   * overlap. */
   RigidTransform T_target_source;
   /** \brief The pose is off by more than what counts as right: see refineTruth(). */
   bool refine_truth = false;

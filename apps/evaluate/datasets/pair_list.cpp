@@ -9,6 +9,7 @@
 #include "../../io/transform_io.h"
 
 #include <filesystem>
+#include <limits>
 
 namespace pcl_flashreg::evaluate {
 namespace {
@@ -30,10 +31,11 @@ splitTabs(std::string_view line)
 Pair
 parsePair(const std::vector<std::string>& cells)
 {
-  if (cells.size() != TEXT_COLUMNS + 16)
+  const bool no_pose = cells.size() == TEXT_COLUMNS + 1 && cells.back() == "none";
+  if (cells.size() != TEXT_COLUMNS + 16 && !no_pose)
     throw io::InputError("found " + std::to_string(cells.size()) +
                          " columns, expected 22: dataset, split, source, target, "
-                         "correspondences, note and 16 numbers");
+                         "correspondences, note and 16 numbers (or one 'none')");
   std::string matrix;
   for (std::size_t i = TEXT_COLUMNS; i < cells.size(); ++i)
     matrix += cells[i] + ' ';
@@ -43,7 +45,11 @@ parsePair(const std::vector<std::string>& cells)
   pair.source = cells[2];
   pair.target = cells[3];
   pair.correspondences = cells[4];
-  pair.T_target_source = io::parseTransform(matrix);
+  if (no_pose)
+    pair.T_target_source.translation.setConstant(
+        std::numeric_limits<double>::quiet_NaN());
+  else
+    pair.T_target_source = io::parseTransform(matrix);
   return pair;
 }
 

@@ -11,8 +11,8 @@
 namespace pcl_flashreg::evaluate {
 
 /** \brief Reads a list of pairs: a tab-separated file with the columns dataset, split,
- * source, target, correspondences, note, and the 16 numbers of T_target_source, row-major;
- * lines that begin with # are left out. The folder of the source is the scene.
+ * source, target, correspondences, note, and the 16 numbers of T_target_source, row-major,
+ * or "none" for clouds that do not overlap; lines that begin with # are left out. The folder of the source is the scene.
  * \throws io::InputError with the number of the line
  */
 std::vector<Pair>

@@ -49,9 +49,13 @@ pack(const DescribedCloud& cloud)
   append(bytes, cloud.features_ms);
   for (int axis = 0; axis < 3; ++axis)
     append(bytes, cloud.shift[axis]);
+  for (int axis = 0; axis < 3; ++axis)
+    append(bytes, cloud.viewpoint[axis]);
   for (std::size_t i = 0; i < cloud.keypoints.points->size(); ++i) {
     for (int axis = 0; axis < 3; ++axis)
       append(bytes, (*cloud.keypoints.points)[i].data[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      append(bytes, (*cloud.keypoints.normals)[i].normal[axis]);
     for (const float value : (*cloud.keypoints.features)[i].histogram)
       append(bytes, value);
   }
@@ -75,17 +79,23 @@ unpack(std::string_view bytes)
 
   DescribedCloud cloud;
   cloud.keypoints.points.reset(new pcl::PointCloud<pcl::PointXYZ>);
+  cloud.keypoints.normals.reset(new pcl::PointCloud<pcl::Normal>);
   cloud.keypoints.features.reset(new pcl::PointCloud<pcl::FPFHSignature33>);
   bool complete = take(bytes, cloud.features_ms);
   for (int axis = 0; axis < 3; ++axis)
     complete = complete && take(bytes, cloud.shift[axis]);
-  if (!complete || bytes.size() != size * (3 + DIMENSION) * sizeof(float))
+  for (int axis = 0; axis < 3; ++axis)
+    complete = complete && take(bytes, cloud.viewpoint[axis]);
+  if (!complete || bytes.size() != size * (3 + 3 + DIMENSION) * sizeof(float))
     return std::nullopt;
   cloud.keypoints.points->resize(size);
+  cloud.keypoints.normals->resize(size);
   cloud.keypoints.features->resize(size);
   for (std::size_t i = 0; i < size; ++i) {
     for (int axis = 0; axis < 3; ++axis)
       take(bytes, (*cloud.keypoints.points)[i].data[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      take(bytes, (*cloud.keypoints.normals)[i].normal[axis]);
     for (float& value : (*cloud.keypoints.features)[i].histogram)
       take(bytes, value);
   }

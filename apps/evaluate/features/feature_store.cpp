@@ -9,6 +9,8 @@
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
+#include <limits>
+
 namespace pcl_flashreg::evaluate {
 
 FeatureStore::FeatureStore(std::string root,
@@ -56,8 +58,15 @@ FeatureStore::describe(const std::string& path) const
     if (const auto cached = cache_->load(key))
       return std::make_shared<DescribedCloud>(*cached);
   }
-  const io::ShiftedCloud cloud = io::toPclCloud(io::coordinates(io::readCloud(path)));
+  const io::Cloud file = io::readCloud(path);
+  const io::ShiftedCloud cloud = io::toPclCloud(io::coordinates(file));
   const auto described = std::make_shared<DescribedCloud>();
+  described->viewpoint = Eigen::Vector3d(file.viewpoint.data());
+  if (!cloud.shift.isZero(0) && described->viewpoint.isZero(0))
+    described->viewpoint.setConstant(std::numeric_limits<double>::quiet_NaN());
+  else
+    cloud.points->sensor_origin_.head<3>() =
+        (described->viewpoint - cloud.shift).cast<float>();
   const detail::Stopwatch stopwatch;
   try {
     described->keypoints = computeFpfh(*cloud.points, {}, leaf_, threads_);

@@ -33,6 +33,8 @@ struct Answer {
   double confidence = 0;
   std::size_t inliers = 0;
   double estimation_ms = 0;
+  /** \brief What this project's confidence is computed from. */
+  std::optional<Evidence> evidence;
   /** \brief Of this project's estimator; other methods have no such stages. */
   std::optional<StageTimings> stages_ms;
 };

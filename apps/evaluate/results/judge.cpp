@@ -33,6 +33,7 @@ judge(const Answer& answer,
   record.trusted = answer.trusted;
   record.confidence = answer.confidence;
   record.inliers = answer.inliers;
+  record.evidence = answer.evidence;
   record.rotation_error =
       DEGREES * Eigen::AngleAxisd(found.rotation.transpose() * truth.rotation).angle();
   record.translation_error = (found.translation - truth.translation).norm();

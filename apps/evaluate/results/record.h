@@ -56,6 +56,8 @@ struct Record {
   bool trusted = false;
   double confidence = 0;
   std::size_t inliers = 0;
+  /** \brief Nothing for methods without one. */
+  std::optional<Evidence> evidence;
   /** \brief Degrees; of the identity if no pose was found. */
   double rotation_error = 0;
   double translation_error = 0;

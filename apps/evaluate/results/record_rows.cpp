@@ -91,7 +91,16 @@ resultColumns()
           "confidence",
           "inliers",
           "rotation_error_deg",
-          "translation_error"};
+          "translation_error",
+          "agreeing_ratio",
+          "rival_inliers",
+          "thickness",
+          "has_clouds",
+          "has_viewpoints",
+          "matched",
+          "contradicted",
+          "lead",
+          "stiffness"};
 }
 
 std::vector<std::string>
@@ -108,21 +117,37 @@ std::vector<std::string>
 resultCells(const Record& r)
 {
   const auto flag = [](bool value) { return std::string(value ? "1" : "0"); };
-  return {std::to_string(r.pair),
-          r.dataset,
-          r.scene,
-          r.source,
-          r.target,
-          r.method,
-          std::to_string(r.correspondences),
-          toText(r.inlier_ratio),
-          flag(r.found),
-          flag(r.success),
-          flag(r.trusted),
-          toText(r.confidence),
-          std::to_string(r.inliers),
-          toText(r.rotation_error),
-          toText(r.translation_error)};
+  std::vector<std::string> cells{std::to_string(r.pair),
+                                 r.dataset,
+                                 r.scene,
+                                 r.source,
+                                 r.target,
+                                 r.method,
+                                 std::to_string(r.correspondences),
+                                 toText(r.inlier_ratio),
+                                 flag(r.found),
+                                 flag(r.success),
+                                 flag(r.trusted),
+                                 toText(r.confidence),
+                                 std::to_string(r.inliers),
+                                 toText(r.rotation_error),
+                                 toText(r.translation_error)};
+  if (!r.evidence) {
+    cells.resize(resultColumns().size());
+    return cells;
+  }
+  const Evidence& e = *r.evidence;
+  cells.insert(cells.end(),
+               {toText(e.inlier_ratio),
+                toText(e.rival_inliers),
+                toText(e.thickness),
+                flag(e.has_clouds),
+                flag(e.has_viewpoints),
+                toText(e.agreement.matched),
+                toText(e.agreement.contradicted),
+                toText(e.lead),
+                toText(e.stiffness)});
+  return cells;
 }
 
 std::vector<std::string>
@@ -160,6 +185,19 @@ recordFromCells(const std::vector<std::string>& cells)
   r.inliers = reader.count();
   r.rotation_error = reader.number();
   r.translation_error = reader.number();
+  if (cells.back().empty())
+    return r;
+  Evidence& e = r.evidence.emplace();
+  e.inliers = static_cast<double>(r.inliers);
+  e.inlier_ratio = reader.number();
+  e.rival_inliers = reader.number();
+  e.thickness = reader.number();
+  e.has_clouds = reader.flag();
+  e.has_viewpoints = reader.flag();
+  e.agreement.matched = reader.number();
+  e.agreement.contradicted = reader.number();
+  e.lead = reader.number();
+  e.stiffness = reader.number();
   return r;
 }
 
