@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -37,13 +38,47 @@ private:
     int point;
   };
 
+  /** \brief Marks a slot that no cell is in. */
+  static constexpr std::uint64_t FREE = ~std::uint64_t{0};
+  /** \brief Cells an axis that a key has room for, to either side of the origin. */
+  static constexpr int HALF_RANGE = 1 << 20;
+
+  /** \brief Places far outside are in a border cell, where a stray point does no harm. */
+  int
+  cellOf(float x) const
+  {
+    constexpr float limit = HALF_RANGE - 4;
+    const float scaled = x * inverse_side_;
+    // The comparisons turn down what is not a number, too.
+    const float inside = scaled > -limit ? (scaled < limit ? scaled : limit) : -limit;
+    const int truncated = static_cast<int>(inside);
+    return truncated - (inside < static_cast<float>(truncated) ? 1 : 0);
+  }
+
   Eigen::Vector3i
-  cellOf(const Eigen::Vector3f& place) const;
+  cellOf(const Eigen::Vector3f& place) const
+  {
+    return {cellOf(place.x()), cellOf(place.y()), cellOf(place.z())};
+  }
+
   static std::uint64_t
-  keyOf(const Eigen::Vector3i& cell);
+  keyOf(const Eigen::Vector3i& cell)
+  {
+    const auto part = [](int x) { return static_cast<std::uint64_t>(x + HALF_RANGE); };
+    return (part(cell.x()) << 42) | (part(cell.y()) << 21) | part(cell.z());
+  }
+
   /** \brief Where the key stands, or would have to be put. */
   std::size_t
-  slotOf(std::uint64_t key) const;
+  slotOf(std::uint64_t key) const
+  {
+    const std::size_t mask = cells_.size() - 1;
+    std::size_t slot = ((key * 0x9E3779B97F4A7C15ull) >> 32) & mask;
+    while (cells_[slot].key != FREE && cells_[slot].key != key)
+      slot = (slot + 1) & mask;
+    return slot;
+  }
+
   void
   resize(std::size_t capacity);
   void
