@@ -27,13 +27,14 @@ protected:
     expected_ = record(*makeCpuBackend(1), problem_, named_.parameters);
   }
 
-  /** \brief Without a trace: copying one waits and allocates. */
+  /** \brief Without a trace and candidates: copying them waits. */
   PoseEstimate
   run(Backend& backend)
   {
     StageTimings timings;
     StageClock clock(timings);
-    return backend.run(problem_, named_.parameters, std::nullopt, clock, nullptr);
+    return backend.run(
+        problem_, named_.parameters, std::nullopt, false, clock, nullptr);
   }
 
   void

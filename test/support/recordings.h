@@ -30,7 +30,8 @@ record(Backend& backend,
 {
   Recording recording;
   StageClock clock(recording.timings);
-  recording.estimate = backend.run(problem, parameters, guess, clock, &recording.trace);
+  recording.estimate =
+      backend.run(problem, parameters, guess, true, clock, &recording.trace);
   return recording;
 }
 
@@ -82,6 +83,11 @@ expectSame(const Recording& expected, const Recording& found)
   EXPECT_EQ(expected.estimate.status, found.estimate.status);
   EXPECT_EQ(expected.estimate.second_order, found.estimate.second_order);
   EXPECT_EQ(expected.estimate.inliers, found.estimate.inliers);
+  ASSERT_EQ(expected.estimate.candidates.size(), found.estimate.candidates.size());
+  for (std::size_t i = 0; i < found.estimate.candidates.size(); ++i) {
+    ASSERT_TRUE(samePose(expected.estimate.candidates[i], found.estimate.candidates[i]))
+        << i;
+  }
   const auto &p = expected.estimate.hypotheses, &q = found.estimate.hypotheses;
   ASSERT_EQ(p.size(), q.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
