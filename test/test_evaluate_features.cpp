@@ -151,7 +151,7 @@ TEST_F(EvaluateFeatures, whatAKilledProcessLeftIsNoObstacle)
 
 TEST_F(EvaluateFeatures, errorsNameTheFile)
 {
-  FeatureStore store(path(), 1e-9, 2, "");
+  FeatureStore store(path(), 1e-30, 2, "");
   EXPECT_EQ(complaintOf([&] {
               store.get("room/cloud_bin_0.pcd");
             }).find(path("room/cloud_bin_0.pcd") + ": "),

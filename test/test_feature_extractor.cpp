@@ -151,8 +151,8 @@ TEST(VoxelGrid, NumbersVoxelsHoweverFarApartTheyLie)
   Points points;
   for (const float far : {-1e12f, 0.0f, 1e12f})
     for (int i = 0; i < 30; ++i)
-      for (const float step : {0.0f, 0.002f * static_cast<float>(i % 6), 0.01f})
-        points.push_back(far + step);
+      for (const int step : {i % 6, i / 6, i % 2})
+        points.push_back(far + 0.002f * static_cast<float>(step));
   // Far off, single precision resolves no neighbours; around 0 there are some.
   const DescribedCloud result =
       FeatureExtractor(1).describe(viewOf(points), withVoxel(0.001, 0.02));

@@ -454,6 +454,11 @@ private:
   void
   fail(const std::string& message);
 
+  /** \brief For the message of a failure: how many keypoints the resolution left. Empty
+   * where the class computed none. */
+  std::string
+  keypointsLeft() const;
+
   bool
   hasInlierDistance() const;
 

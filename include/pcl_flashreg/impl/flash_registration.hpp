@@ -171,7 +171,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::computeTransformation(
     if (result_.status == Status::Ok)
       applyResult(output);
     else
-      fail(toString(result_.status));
+      fail(toString(result_.status) + keypointsLeft());
   }
   catch (const std::exception& error) {
     result_ = {};

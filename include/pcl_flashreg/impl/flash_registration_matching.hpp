@@ -8,6 +8,7 @@
 #include <pcl_flashreg/flash_registration.h>
 #include <pcl_flashreg/impl/packed_features.hpp>
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -140,6 +141,19 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::gatherClouds(
   target_buffer_.gather(target, Eigen::Vector3f::Zero(), viewpoint(*target_));
   clouds_ = CloudPairView<float>{
       source_buffer_.view(), target_buffer_.view(), getResolution()};
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+std::string
+FlashRegistration<PointSource, PointTarget, FeatureT>::keypointsLeft() const
+{
+  if (given_correspondences_ || source_features_ || target_features_)
+    return "";
+  std::ostringstream text;
+  text << " (the resolution of " << getResolution() << " leaves "
+       << source_cache_.fpfh().points->size() << " source and "
+       << target_cache_.fpfh().points->size() << " target keypoints)";
+  return text.str();
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
