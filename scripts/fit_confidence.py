@@ -68,6 +68,13 @@ def model_of(row):
     return "clouds %s viewpoints" % known
 
 
+METHOD_OF = {
+    "correspondences": "flashreg_fast",
+    "clouds with viewpoints": "flashreg",
+    "clouds without viewpoints": "flashreg_no_viewpoint",
+}
+
+
 def scene_of(path):
     # Three raw fragments are of a scene that is there already.
     return os.path.dirname(path).replace(
@@ -78,15 +85,15 @@ def scene_of(path):
 def read(path):
     rows = []
     with open(path, newline="") as file:
-        for cells in csv.DictReader(file):
+        for cells in csv.DictReader(line for line in file if line[0] != "#"):
             row = {}
             for name, text in cells.items():
                 try:
                     row[name] = float(text)
                 except ValueError:
                     row[name] = text
-            if row["rival_inliers"] == "":
-                continue  # another method, without this evidence
+            if row["method"] != METHOD_OF[model_of(row)]:
+                continue  # another method, or one that lacked what it is for
             row["scenes"] = {scene_of(row["source"]), scene_of(row["target"])}
             rows.append(row)
     return rows
