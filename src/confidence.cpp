@@ -26,28 +26,28 @@ limitByRival(const Evidence& e)
 double
 fromCorrespondences(const Evidence& e)
 {
-  const double p = logistic(-11.63 + 3.23 * std::log(e.inliers + 1) +
-                            1.87 * std::log(e.inlier_ratio + 1e-4) +
-                            0.34 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
-                            1.62 * std::log(e.thickness + 1));
+  const double p = logistic(-11.56 + 3.23 * std::log(e.inliers + 1) +
+                            1.90 * std::log(e.inlier_ratio + 1e-4) +
+                            0.33 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
+                            1.66 * std::log(e.thickness + 1));
   return std::min(p, limitByRival(e));
 }
 
 double
 fromClouds(const Evidence& e)
 {
-  return logistic(-23.59 + 0.87 * std::log(e.agreement.matched + 0.01) -
-                  4.64 * std::log(e.agreement.contradicted + 0.01) +
-                  2.42 * std::log(e.inliers + 5) + 1.27 * e.lead +
-                  1.23 * std::log(e.stiffness + 0.001));
+  return logistic(-23.64 + 0.90 * std::log(e.agreement.matched + 0.01) -
+                  4.73 * std::log(e.agreement.contradicted + 0.01) +
+                  2.47 * std::log(e.inliers + 5) + 1.08 * e.lead +
+                  1.32 * std::log(e.stiffness + 0.001));
 }
 
 double
 fromCloudsWithoutViewpoints(const Evidence& e)
 {
-  return logistic(-10.01 - 0.76 * std::log(e.agreement.matched + 0.01) +
-                  3.80 * std::log(e.inliers + 5) + 0.38 * e.lead +
-                  1.94 * std::log(e.stiffness + 0.001));
+  return logistic(-10.48 - 0.74 * std::log(e.agreement.matched + 0.01) +
+                  3.89 * std::log(e.inliers + 5) + 0.38 * e.lead +
+                  1.92 * std::log(e.stiffness + 0.001));
 }
 
 } // namespace

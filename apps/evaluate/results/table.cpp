@@ -40,7 +40,7 @@ title(const GroupSummary& group)
 std::string
 row(const MethodSummary& m)
 {
-  return print("  %-17s", m.method.c_str()) + percent(m.recall) +
+  return print("  %-22s", m.method.c_str()) + percent(m.recall) +
          print("  %5.2f (%5.2f)  %6.3f (%6.3f)  ",
                m.rotation_error.mean,
                m.rotation_error.median,
@@ -67,10 +67,10 @@ times(const MethodSummary& m)
 }
 
 constexpr const char* HEADER =
-    "                            errors of the right ones       trusted poses\n"
-    "                    recall  RE (median)    TE (median)        right  recall  "
+    "                                 errors of the right ones       trusted poses\n"
+    "                         recall  RE (median)    TE (median)        right  recall  "
     "     estimation (p95)    against the first\n"
-    "  method                 %  degrees                               %       %  "
+    "  method                      %  degrees                               %       %  "
     "           ms (ms)       recall  time\n";
 
 } // namespace
