@@ -69,12 +69,6 @@ public:
     return begin(i) + counts_[i];
   }
 
-  std::size_t
-  size() const
-  {
-    return counts_.size();
-  }
-
   void
   clear(std::size_t i)
   {
