@@ -19,6 +19,9 @@ struct Options {
    * for at first. A denser graph costs a second attempt, once; memory for this one costs
    * less than the bit matrix at the usual sizes. */
   unsigned expected_degree = 128;
+  /** \brief Every problem is the first one: its points are copied in with the first call
+   * and stay, as those do that another step on the device has left there. */
+  bool resident_points = false;
 };
 
 } // namespace cuda

@@ -63,7 +63,8 @@ Stages::begin(const Problem& problem,
     planExact(static_cast<unsigned long long>(options_.expected_degree) * call_.size);
   else
     planBounded();
-  upload(problem);
+  if (!options_.resident_points || !uploaded_)
+    upload(problem);
   if (options_.stage_timings)
     beginning_.record(stream_);
 }
@@ -118,6 +119,7 @@ Stages::upload(const Problem& problem)
   call_.tx = points + 3 * n;
   call_.ty = points + 4 * n;
   call_.tz = points + 5 * n;
+  uploaded_ = true;
 }
 
 /** \brief Stages 3 to 7. */

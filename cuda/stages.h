@@ -120,6 +120,7 @@ private:
 
   PinnedBuffer<float> staging_;
   DeviceBuffer<float> points_;
+  bool uploaded_ = false;
   DeviceBuffer<unsigned> graph_;
   /** \brief Entries of the second-order graph in either form; in the exact one the columns
    * are those of all neighbours. */

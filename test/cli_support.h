@@ -10,45 +10,17 @@
 #include "io/file.h"
 #include "io/transform_io.h"
 #include "support/made_correspondences.h"
+#include "support/program.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace pcl_flashreg::cli {
 
 namespace fs = std::filesystem;
-
-/** \brief What a run of the program left. */
-struct CliRun {
-  /** \brief Exit status; 128 and more if a signal ended it. */
-  int status = -1;
-  std::string out;
-  std::string err;
-
-  nlohmann::json
-  json() const
-  {
-    return nlohmann::json::parse(out);
-  }
-};
-
-inline std::string
-slurp(const fs::path& path)
-{
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /** \brief Points on the walls and boxes of a made room of 3 m x 2.4 m x 2 m. */
 inline Eigen::Matrix3Xd
@@ -113,37 +85,15 @@ cloudOf(const Eigen::Matrix3Xd& xyz,
 }
 
 /** \brief A folder of its own for every test, and the program in it. */
-class CliTest : public ::testing::Test {
+class CliTest : public ProgramTest {
 protected:
   void
   SetUp() override
   {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("pcl_flashreg_" + std::string(test->test_suite_name()) + "_" +
-               test->name() + "_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
+    ProgramTest::SetUp();
     const Eigen::Isometry3d pose = made::Random(11).pose(2);
     truth_.rotation = pose.linear();
     truth_.translation = pose.translation();
-  }
-
-  void
-  TearDown() override
-  {
-    fs::remove_all(folder_);
-  }
-
-  std::string
-  path(const std::string& name) const
-  {
-    return (folder_ / name).string();
-  }
-
-  void
-  write(const std::string& name, const std::string& text) const
-  {
-    std::ofstream(path(name), std::ios::binary) << text;
   }
 
   /** \brief The room, seen twice: target in its own frame, source under the inverse of
@@ -165,16 +115,10 @@ protected:
   /** \brief Runs the program in the folder.
    * \param[in] arguments as they are typed into a shell
    */
-  CliRun
+  ProgramRun
   align(const std::string& arguments) const
   {
-    const std::string command = "cd '" + folder_.string() +
-                                "' && '" PCL_FLASHREG_ALIGN "' " + arguments +
-                                " >.out 2>.err </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-            slurp(folder_ / ".out"),
-            slurp(folder_ / ".err")};
+    return runProgram(PCL_FLASHREG_ALIGN, arguments);
   }
 
   /** \brief Expects a pose within a few millimetres of the truth. */
@@ -204,7 +148,6 @@ protected:
 
   static constexpr std::size_t kPoints = 12000;
 
-  fs::path folder_;
   RigidTransform truth_;
 };
 

@@ -9,9 +9,9 @@
 #include "io/error.h"
 #include "io/transform_io.h"
 #include "support/made_correspondences.h"
+#include "support/program.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -36,46 +36,8 @@ complaintOf(Run&& run)
   return "";
 }
 
-class EvaluateTest : public testing::Test {
+class EvaluateTest : public ProgramTest {
 protected:
-  void
-  SetUp() override
-  {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("pcl_flashreg_" + std::string(test->test_suite_name()) + "_" +
-               test->name() + "_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-
-  void
-  TearDown() override
-  {
-    fs::remove_all(folder_);
-  }
-
-  std::string
-  path(const std::string& name = "") const
-  {
-    return (name.empty() ? folder_ : folder_ / name).string();
-  }
-
-  void
-  write(const std::string& name, const std::string& text) const
-  {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(path(name), std::ios::binary) << text;
-  }
-
-  std::string
-  read(const std::string& name) const
-  {
-    std::ifstream stream(path(name), std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-  }
-
   static std::string
   matrixText(const Eigen::Isometry3d& T)
   {
@@ -132,8 +94,6 @@ protected:
       write(name + "@label.txt", "0\n");
     }
   }
-
-  fs::path folder_;
 };
 
 } // namespace pcl_flashreg::evaluate

@@ -16,7 +16,7 @@ using io::ScalarType;
 TEST_F(CliTest, findsThePoseAndSaysSo)
 {
   writeRoom("source.pcd", "target.pcd");
-  const CliRun run = align("source.pcd target.pcd");
+  const ProgramRun run = align("source.pcd target.pcd");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");
   EXPECT_NE(run.out.find("pose found and trusted"), std::string::npos) << run.out;
@@ -27,7 +27,7 @@ TEST_F(CliTest, findsThePoseAndSaysSo)
 TEST_F(CliTest, jsonHasItsKeys)
 {
   writeRoom("source.pcd", "target.pcd");
-  const CliRun run = align("source.pcd target.pcd --json - --leaf 0.1");
+  const ProgramRun run = align("source.pcd target.pcd --json - --leaf 0.1");
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = run.json();
   expectTruth(poseOf(json));
@@ -67,7 +67,8 @@ TEST_F(CliTest, jsonHasItsKeys)
 TEST_F(CliTest, describesWithPclToo)
 {
   writeRoom("source.pcd", "target.pcd");
-  const CliRun run = align("source.pcd target.pcd --leaf 0.1 --features pcl --json -");
+  const ProgramRun run =
+      align("source.pcd target.pcd --leaf 0.1 --features pcl --json -");
   ASSERT_EQ(run.status, 0) << run.err;
   expectTruth(poseOf(run.json()));
   EXPECT_EQ(align("source.pcd target.pcd --leaf 0.1 --features native").status, 0);
@@ -76,14 +77,14 @@ TEST_F(CliTest, describesWithPclToo)
 TEST_F(CliTest, writesEverythingItIsAskedFor)
 {
   writeRoom("source.pcd", "target.pcd");
-  const CliRun run = align("source.pcd target.pcd aligned.ply --json out.json "
-                           "--transform pose.txt --quiet");
+  const ProgramRun run = align("source.pcd target.pcd aligned.ply --json out.json "
+                               "--transform pose.txt --quiet");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(run.err, "");
   const RigidTransform pose = io::parseFile(path("pose.txt"), io::parseTransform);
   expectTruth(pose);
-  const auto json = nlohmann::json::parse(slurp(path("out.json")));
+  const auto json = nlohmann::json::parse(read("out.json"));
   EXPECT_EQ(poseOf(json).translation, pose.translation);
   const Eigen::Matrix3Xd aligned = io::coordinates(io::readCloud(path("aligned.ply")));
   const Eigen::Matrix3Xd expected =
@@ -106,7 +107,8 @@ TEST_F(CliTest, keepsAllFields)
   target.viewpoint = {1, 2, 3, 1, 0, 0, 0};
   io::writeCloud(path("source.pcd"), source);
   io::writeCloud(path("target.pcd"), target);
-  const CliRun run = align("source.pcd target.pcd aligned.pcd --transform pose.txt");
+  const ProgramRun run =
+      align("source.pcd target.pcd aligned.pcd --transform pose.txt");
   ASSERT_EQ(run.status, 0) << run.err;
   const io::Cloud aligned = io::readCloud(path("aligned.pcd"));
   ASSERT_EQ(aligned.fields.size(), source.fields.size());
@@ -146,8 +148,9 @@ TEST_F(CliTest, geoReferencedDoublesKeepTheirPrecision)
                  cloudOf(sourcePoints().colwise() + utm, ScalarType::Float64));
   io::writeCloud(path("target_utm.ply"),
                  cloudOf(room.colwise() + utm, ScalarType::Float64));
-  const CliRun near = align("source.ply target.ply --leaf 0.1 --json -");
-  const CliRun far = align("source_utm.ply target_utm.ply far.ply --leaf 0.1 --json -");
+  const ProgramRun near = align("source.ply target.ply --leaf 0.1 --json -");
+  const ProgramRun far =
+      align("source_utm.ply target_utm.ply far.ply --leaf 0.1 --json -");
   ASSERT_EQ(near.status, 0) << near.err;
   ASSERT_EQ(far.status, 0) << far.err;
   expectTruth(poseOf(near.json()));
@@ -168,7 +171,7 @@ TEST_F(CliTest, floatsThatMoveFarAwayBecomeDoubles)
   io::writeCloud(path("source.pcd"), cloudOf(sourcePoints()));
   io::writeCloud(path("target.ply"),
                  cloudOf(roomPoints(kPoints, 2).colwise() + utm, ScalarType::Float64));
-  const CliRun run = align("source.pcd target.ply far.pcd --leaf 0.1");
+  const ProgramRun run = align("source.pcd target.ply far.pcd --leaf 0.1");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.err.find("written as doubles"), std::string::npos);
   EXPECT_EQ(io::readCloud(path("far.pcd")).find("x")->type, ScalarType::Float64);
@@ -182,7 +185,7 @@ TEST_F(CliTest, readsKittiScans)
         cloudOf(xyz, ScalarType::Float32, {{"intensity", ScalarType::Float32, 1, 0}});
     write(is_source ? "s.bin" : "t.bin", {cloud.data.begin(), cloud.data.end()});
   }
-  const CliRun run = align("s.bin t.bin aligned.pcd --json -");
+  const ProgramRun run = align("s.bin t.bin aligned.pcd --json -");
   ASSERT_EQ(run.status, 0) << run.err;
   expectTruth(poseOf(run.json()));
   const io::Cloud aligned = io::readCloud(path("aligned.pcd"));
@@ -198,7 +201,7 @@ TEST_F(CliTest, pointsThatAreNotFiniteAreSkippedAndKept)
     xyz(i % 3, i) = std::nan("");
   io::writeCloud(path("source.pcd"), cloudOf(xyz));
   io::writeCloud(path("target.pcd"), cloudOf(roomPoints(kPoints, 2)));
-  const CliRun run = align("source.pcd target.pcd aligned.pcd --json -");
+  const ProgramRun run = align("source.pcd target.pcd aligned.pcd --json -");
   ASSERT_EQ(run.status, 0) << run.err;
   expectTruth(poseOf(run.json()));
   EXPECT_EQ(io::readCloud(path("aligned.pcd")).size(), kPoints);
@@ -221,7 +224,8 @@ TEST_F(CliTest, mutualMatchesAndSeveralNeighbors)
 {
   writeRoom("source.pcd", "target.pcd");
   const auto count = [&](const std::string& options) {
-    const CliRun run = align("source.pcd target.pcd --leaf 0.1 --json - " + options);
+    const ProgramRun run =
+        align("source.pcd target.pcd --leaf 0.1 --json - " + options);
     EXPECT_EQ(run.status, 0) << options << run.err;
     expectTruth(poseOf(run.json()));
     return run.json().at("correspondences").get<int>();
@@ -284,13 +288,13 @@ TEST_F(CliTest, anUntrustedPoseIsNotWritten)
   io::writeCloud(path("b.pcd"), cloudOf(b));
   const std::string command =
       "a.pcd b.pcd c.pcd --leaf 0.1 --transform t.txt --json j ";
-  const CliRun run = align(command);
+  const ProgramRun run = align(command);
   EXPECT_EQ(run.status, 1) << run.out;
   EXPECT_NE(run.out.find("NOT trusted"), std::string::npos) << run.out;
   EXPECT_NE(run.err.find("not written"), std::string::npos) << run.err;
   EXPECT_FALSE(fs::exists(path("c.pcd")));
   EXPECT_FALSE(fs::exists(path("t.txt")));
-  EXPECT_EQ(nlohmann::json::parse(slurp(path("j"))).at("converged"), false);
+  EXPECT_EQ(nlohmann::json::parse(read("j")).at("converged"), false);
   EXPECT_EQ(align(command + "--write-untrusted").status, 1);
   EXPECT_TRUE(fs::exists(path("c.pcd")));
   EXPECT_TRUE(fs::exists(path("t.txt")));
@@ -299,23 +303,23 @@ TEST_F(CliTest, anUntrustedPoseIsNotWritten)
 TEST_F(CliTest, snapshotIsAPng)
 {
   writeRoom("source.pcd", "target.pcd");
-  const CliRun run = align("source.pcd target.pcd --quiet --snapshot pair.png");
+  const ProgramRun run = align("source.pcd target.pcd --quiet --snapshot pair.png");
   if (run.status == 2 && run.err.find("not built") != std::string::npos)
     GTEST_SKIP() << run.err;
   ASSERT_EQ(run.status, 0) << run.err;
-  const std::string bytes = slurp(path("pair.png"));
+  const std::string bytes = read("pair.png");
   ASSERT_GT(bytes.size(), 10000u);
   EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
 TEST_F(CliTest, helpAndVersion)
 {
-  const CliRun help = align("--help");
+  const ProgramRun help = align("--help");
   EXPECT_EQ(help.status, 0);
   for (const char* word :
        {"Examples:", "--correspondences", "--min-confidence", "Exit"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
-  const CliRun printed = align("--version");
+  const ProgramRun printed = align("--version");
   EXPECT_EQ(printed.status, 0);
   EXPECT_EQ(printed.out, std::string("pcl_flashreg_align ") + version() + "\n");
 }

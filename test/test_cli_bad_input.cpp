@@ -22,7 +22,7 @@ protected:
   void
   expectError(const std::string& arguments, int status, const std::string& part) const
   {
-    const CliRun run = align(arguments);
+    const ProgramRun run = align(arguments);
     EXPECT_EQ(run.status, status) << arguments << '\n' << run.err;
     EXPECT_EQ(run.out, "") << arguments;
     EXPECT_EQ(run.err.compare(0, 27, "pcl_flashreg_align: error: "), 0) << run.err;
@@ -51,7 +51,7 @@ protected:
 
 TEST_F(CliBadInput, cloudsThatAreNone)
 {
-  const std::string whole = slurp(path("source.pcd"));
+  const std::string whole = read("source.pcd");
   fs::create_directory(path("folder.pcd"));
   write("empty.pcd", "");
   write("text.pcd", "To whom it may concern\n");
@@ -141,7 +141,7 @@ TEST_F(CliBadInput, commandLinesThatMakeNoSense)
 
 TEST_F(CliBadInput, outputsThatWouldDoHarm)
 {
-  const std::string before = slurp(path("source.pcd"));
+  const std::string before = read("source.pcd");
   fs::create_symlink("source.pcd", path("link.pcd"));
   write("guess.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
   const std::string pair = "source.pcd target.pcd ";
@@ -154,7 +154,7 @@ TEST_F(CliBadInput, outputsThatWouldDoHarm)
   expectError(pair + "aligned.xyz", 2, "written as .pcd or .ply");
   expectError(pair + "no/such/folder.pcd", 2, "does not exist");
   expectError(pair + "--transform .", 2, "is a directory");
-  EXPECT_EQ(slurp(path("source.pcd")), before);
+  EXPECT_EQ(read("source.pcd"), before);
 }
 
 TEST_F(CliBadInput, correspondencesAndGuessesThatAreNone)
@@ -185,7 +185,7 @@ TEST_F(CliBadInput, tooFewCorrespondencesAreNoError)
   write("two.txt", "1 2 3 4 5 6\n2 3 4 5 6 7\n");
   write("same.txt", repeated("1 2 3 4 5 6\n", 100));
   for (const char* file : {"two.txt", "same.txt"}) {
-    const CliRun run = align(std::string("--json - --correspondences ") + file);
+    const ProgramRun run = align(std::string("--json - --correspondences ") + file);
     EXPECT_EQ(run.status, 1) << run.err;
     EXPECT_EQ(run.json().at("converged"), false);
     EXPECT_NE(run.json().at("status"), "ok");
@@ -196,7 +196,7 @@ TEST_F(CliBadInput, aWriteThatFailsIsReported)
 {
   if (!fs::exists("/dev/full"))
     GTEST_SKIP() << "no /dev/full on this system";
-  const CliRun run = align("source.pcd target.pcd --quiet --json /dev/full");
+  const ProgramRun run = align("source.pcd target.pcd --quiet --json /dev/full");
   EXPECT_EQ(run.status, 3);
   EXPECT_NE(run.err.find("cannot be written"), std::string::npos) << run.err;
 }

@@ -42,7 +42,7 @@ protected:
   }
 
   void
-  expectFound(const CliRun& run) const
+  expectFound(const ProgramRun& run) const
   {
     ASSERT_EQ(run.status, 0) << run.err;
     const auto json = run.json();
@@ -68,7 +68,7 @@ TEST_F(CliCorrespondences, sixColumnsNeedNoClouds)
   write("pairs.txt", rows.str());
   expectFound(align("--correspondences pairs.txt --leaf 0.05 --json -"));
   expectFound(align("--correspondences pairs.txt --json -"));
-  const CliRun run =
+  const ProgramRun run =
       align("source.ply target.ply out.ply --correspondences pairs.txt --quiet");
   EXPECT_EQ(run.status, 0) << run.err;
   const Eigen::Matrix3Xd aligned = io::coordinates(io::readCloud(path("out.ply")));
@@ -94,7 +94,7 @@ TEST_F(CliCorrespondences, indexPairsNeedTheClouds)
     rows << i << ' ' << partner_[i] << '\n';
   write("pairs.txt", rows.str());
   expectFound(align("source.ply target.ply --correspondences pairs.txt --json -"));
-  const CliRun run = align("--correspondences pairs.txt");
+  const ProgramRun run = align("--correspondences pairs.txt");
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("need the source and the target cloud"), std::string::npos);
 }
@@ -111,7 +111,7 @@ TEST_F(CliCorrespondences, rowsThatAreNotFiniteAreCounted)
     put(rows, target_.col(partner_[static_cast<std::size_t>(i)]), "\n");
   }
   write("pairs.txt", rows.str());
-  const CliRun run = align("--correspondences pairs.txt --leaf 0.05 --json -");
+  const ProgramRun run = align("--correspondences pairs.txt --leaf 0.05 --json -");
   expectFound(run);
   EXPECT_EQ(run.json().at("correspondences_invalid"), kPairs / 8);
 }
@@ -148,12 +148,12 @@ TEST_F(CliCorrespondences, descriptorsFromFiles)
   };
   io::writeCloud(path("f.pcd"), describe(kPairs));
   io::writeCloud(path("short.pcd"), describe(kPairs - 1));
-  const CliRun run = align("source.ply target.ply --features f.pcd,f.pcd --json -");
+  const ProgramRun run = align("source.ply target.ply --features f.pcd,f.pcd --json -");
   ASSERT_EQ(run.status, 0) << run.err;
   expectTruth(poseOf(run.json()));
   EXPECT_EQ(run.json().at("correspondences"), kPairs);
   EXPECT_EQ(run.json().at("timings_ms").at("features"), 0.0);
-  const CliRun mismatch = align("source.ply target.ply --features f.pcd,short.pcd");
+  const ProgramRun mismatch = align("source.ply target.ply --features f.pcd,short.pcd");
   EXPECT_EQ(mismatch.status, 3);
   EXPECT_NE(mismatch.err.find("799 descriptors"), std::string::npos) << mismatch.err;
   EXPECT_EQ(align("source.ply target.ply --features f.pcd,target.ply").status, 3);

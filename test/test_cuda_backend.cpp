@@ -71,6 +71,22 @@ TEST_F(CudaBackendTest, WarmCallsAllocateNothingAndWaitOnce)
   }
 }
 
+TEST_F(CudaBackendTest, ResidentPointsAreCopiedOnce)
+{
+  cuda::Options options;
+  options.resident_points = true;
+  const auto backend = cuda::makeBackend(options);
+  expectRight(run(*backend));
+  const std::size_t before = cuda_emulation::counters().copies;
+  for (const SecondOrder form : {SecondOrder::Exact, SecondOrder::Bounded}) {
+    named_.parameters.second_order = form;
+    run(*backend);
+  }
+  EXPECT_EQ(cuda_emulation::counters().copies, before + 2); // results alone
+  named_.parameters.second_order = SecondOrder::Auto;
+  expectRight(run(*backend));
+}
+
 TEST_F(CudaBackendTest, EveryStageHasATime)
 {
   const auto backend = makeCudaBackend();

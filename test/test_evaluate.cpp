@@ -19,24 +19,13 @@
 namespace pcl_flashreg::evaluate {
 namespace {
 
-struct ProgramRun {
-  int status = -1;
-  std::string out, err;
-};
-
 class Evaluate : public EvaluateTest {
 protected:
   /** \param[in] arguments as they are typed into a shell */
   ProgramRun
   evaluate(const std::string& arguments, const std::string& launcher = "") const
   {
-    const std::string command = "cd '" + folder_.string() + "' && " + launcher +
-                                " '" PCL_FLASHREG_EVALUATE "' " + arguments +
-                                " >.out 2>.err </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-            read(".out"),
-            read(".err")};
+    return runProgram(PCL_FLASHREG_EVALUATE, arguments, launcher);
   }
 
   void

@@ -7,7 +7,7 @@
 #include "../io/cloud_io.h"
 #include "../io/pcl_cloud.h"
 #include "machine.h"
-#include "measurement.h"
+#include "spread.h"
 
 #include <pcl_flashreg/pcl_front_end.h>
 

@@ -3,38 +3,20 @@
 
 #include "measurement.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace pcl_flashreg::benchmark {
-namespace {
-
-constexpr int WARM_UP_RUNS = 3;
-
-} // namespace
-
-Spread
-spreadOf(std::vector<double> times)
-{
-  std::sort(times.begin(), times.end());
-  const auto at = [&](double quantile) {
-    return times[static_cast<std::size_t>(
-        std::lround(quantile * static_cast<double>(times.size() - 1)))];
-  };
-  return {at(0.5), at(0.1), at(0.9), times.front()};
-}
 
 Measurement
 measure(const std::string& name,
         const CorrespondenceView<double>& correspondences,
         const Parameters& parameters,
+        BackendKind backend,
         unsigned threads,
         int runs)
 {
   Measurement measurement;
   measurement.name = name;
   measurement.size = correspondences.size;
-  Estimator estimator(BackendKind::Auto, threads);
+  Estimator estimator(backend, threads);
   measurement.result = estimator.estimate(correspondences, parameters);
   measurement.cold_ms = measurement.result.timings_ms.total;
   for (int i = 0; i < WARM_UP_RUNS; ++i)

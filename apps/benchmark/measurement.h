@@ -3,9 +3,13 @@
 
 #pragma once
 
+#include "device/device_figures.h"
+#include "spread.h"
+
 #include <pcl_flashreg/estimator.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,14 +32,6 @@ constexpr std::array<StageField, 9> STAGES = {{
     {"total", &StageTimings::total},
 }};
 
-/** \brief Milliseconds. */
-struct Spread {
-  double median, p10, p90, least;
-};
-
-Spread
-spreadOf(std::vector<double> times);
-
 /** \brief One problem, timed. */
 struct Measurement {
   std::string name;
@@ -43,8 +39,11 @@ struct Measurement {
   Result result;
   /** \brief First call of a fresh estimator: threads and memory are made here. */
   double cold_ms = 0;
-  /** \brief By stage, of the warm calls. */
+  /** \brief By stage, of the warm calls, from host memory to the pose. On a device stages
+   * are timed there, by marks in its stream; the preparation and the total are the
+   * host's. */
   std::array<Spread, STAGES.size()> stages;
+  std::optional<DeviceFigures> device;
 };
 
 /** \brief Times the estimation from correspondences to pose.
@@ -54,6 +53,7 @@ Measurement
 measure(const std::string& name,
         const CorrespondenceView<double>& correspondences,
         const Parameters& parameters,
+        BackendKind backend,
         unsigned threads,
         int runs);
 

@@ -215,6 +215,9 @@ enum cudaDeviceAttr {
   cudaDevAttrCooperativeLaunch = 95
 };
 enum cudaFuncAttribute { cudaFuncAttributeMaxDynamicSharedMemorySize = 8 };
+struct cudaDeviceProp {
+  char name[256];
+};
 struct cudaFuncAttributes {
   std::size_t sharedSizeBytes = 0;
 };
@@ -250,6 +253,12 @@ cudaError_t
 cudaGetDeviceCount(int* count);
 cudaError_t
 cudaGetDevice(int* device);
+cudaError_t
+cudaGetDeviceProperties(cudaDeviceProp* properties, int device);
+cudaError_t
+cudaDeviceGetPCIBusId(char* id, int length, int device);
+cudaError_t
+cudaMemGetInfo(std::size_t* free, std::size_t* total);
 cudaError_t
 cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int device);
 

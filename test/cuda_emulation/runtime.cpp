@@ -10,6 +10,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct Event {
 namespace {
 
 struct Runtime {
+  /** \brief Held by every call, also while kernels run: threads of the host may share the
+   * device, and take turns. */
+  std::recursive_mutex mutex;
   Device device;
   Counters counters;
   std::string failure;
@@ -40,6 +44,12 @@ runtime()
 {
   static Runtime instance;
   return instance;
+}
+
+std::lock_guard<std::recursive_mutex>
+lock()
+{
+  return std::lock_guard<std::recursive_mutex>(runtime().mutex);
 }
 
 cudaError_t
@@ -138,6 +148,7 @@ lastFailure()
 cudaError_t
 kernelImage()
 {
+  const auto guard = lock();
   return report(device().has_kernel_image ? cudaSuccess
                                           : cudaErrorNoKernelImageForDevice);
 }
@@ -156,6 +167,7 @@ enqueueGrid(Stream* stream,
             bool at_once,
             std::function<void()> body)
 {
+  const auto guard = lock();
   const Device& d = device();
   if (grid.x == 0 || grid.y == 0 || grid.z == 0 || grid.y > 65535 || grid.z > 65535 ||
       block.x * block.y * block.z == 0 || block.x * block.y * block.z > 1024)
@@ -220,12 +232,14 @@ cudaGetErrorString(cudaError_t error)
 cudaError_t
 cudaGetLastError()
 {
+  const auto guard = lock();
   return std::exchange(runtime().last, cudaSuccess);
 }
 
 cudaError_t
 cudaGetDeviceCount(int* count)
 {
+  const auto guard = lock();
   *count = device().count;
   return report(device().count > 0 ? cudaSuccess : cudaErrorNoDevice);
 }
@@ -233,13 +247,39 @@ cudaGetDeviceCount(int* count)
 cudaError_t
 cudaGetDevice(int* number)
 {
+  const auto guard = lock();
   *number = 0;
   return report(device().count > 0 ? cudaSuccess : cudaErrorNoDevice);
 }
 
 cudaError_t
+cudaGetDeviceProperties(cudaDeviceProp* properties, int)
+{
+  std::strcpy(properties->name, "emulated device");
+  return cudaSuccess;
+}
+
+cudaError_t
+cudaDeviceGetPCIBusId(char* id, int length, int)
+{
+  std::strncpy(id, "none", static_cast<std::size_t>(length));
+  return cudaSuccess;
+}
+
+cudaError_t
+cudaMemGetInfo(std::size_t* free, std::size_t* total)
+{
+  const auto guard = lock();
+  const Runtime& r = runtime();
+  *total = r.device.memory;
+  *free = *total - std::min(*total, r.counters.bytes);
+  return cudaSuccess;
+}
+
+cudaError_t
 cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int)
 {
+  const auto guard = lock();
   switch (attribute) {
   case cudaDevAttrMultiProcessorCount:
     *value = device().multiprocessors;
@@ -260,6 +300,7 @@ cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int)
 cudaError_t
 cudaMalloc(void** memory, std::size_t bytes)
 {
+  const auto guard = lock();
   Runtime& r = runtime();
   runAll();
   *memory = nullptr;
@@ -278,6 +319,7 @@ cudaMalloc(void** memory, std::size_t bytes)
 cudaError_t
 cudaFree(void* memory)
 {
+  const auto guard = lock();
   Runtime& r = runtime();
   if (!memory)
     return cudaSuccess;
@@ -293,6 +335,7 @@ cudaFree(void* memory)
 cudaError_t
 cudaMallocHost(void** memory, std::size_t bytes)
 {
+  const auto guard = lock();
   Runtime& r = runtime();
   *memory = nullptr;
   if (!take(r.device.allocations_left))
@@ -307,6 +350,7 @@ cudaMallocHost(void** memory, std::size_t bytes)
 cudaError_t
 cudaFreeHost(void* memory)
 {
+  const auto guard = lock();
   runAll();
   return report(!memory || runtime().pinned_memory.erase(memory) == 1
                     ? cudaSuccess
@@ -320,6 +364,7 @@ cudaMemcpyAsync(void* to,
                 cudaMemcpyKind kind,
                 cudaStream_t stream)
 {
+  const auto guard = lock();
   ++counters().copies;
   const void* host = kind == cudaMemcpyHostToDevice ? from : to;
   if (!isPinned(host)) {
@@ -338,6 +383,7 @@ cudaMemcpyAsync(void* to,
 cudaError_t
 cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t stream)
 {
+  const auto guard = lock();
   stream->work.push_back([=] {
     std::memset(memory, value, bytes);
     return cudaSuccess;
@@ -348,6 +394,7 @@ cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t stream)
 cudaError_t
 cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned)
 {
+  const auto guard = lock();
   *stream = new Stream;
   runtime().streams.insert(*stream);
   return cudaSuccess;
@@ -356,6 +403,7 @@ cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned)
 cudaError_t
 cudaStreamDestroy(cudaStream_t stream)
 {
+  const auto guard = lock();
   const cudaError_t error = run(*stream);
   runtime().streams.erase(stream);
   delete stream;
@@ -365,6 +413,7 @@ cudaStreamDestroy(cudaStream_t stream)
 cudaError_t
 cudaStreamSynchronize(cudaStream_t stream)
 {
+  const auto guard = lock();
   ++counters().synchronisations;
   return run(*stream);
 }
@@ -372,6 +421,7 @@ cudaStreamSynchronize(cudaStream_t stream)
 cudaError_t
 cudaEventCreateWithFlags(cudaEvent_t* event, unsigned)
 {
+  const auto guard = lock();
   *event = new Event;
   return cudaSuccess;
 }
@@ -379,6 +429,7 @@ cudaEventCreateWithFlags(cudaEvent_t* event, unsigned)
 cudaError_t
 cudaEventDestroy(cudaEvent_t event)
 {
+  const auto guard = lock();
   delete event;
   return cudaSuccess;
 }
@@ -386,6 +437,7 @@ cudaEventDestroy(cudaEvent_t event)
 cudaError_t
 cudaEventRecord(cudaEvent_t event, cudaStream_t stream)
 {
+  const auto guard = lock();
   stream->work.push_back([event] {
     event->time = std::chrono::steady_clock::now();
     return cudaSuccess;
@@ -396,6 +448,7 @@ cudaEventRecord(cudaEvent_t event, cudaStream_t stream)
 cudaError_t
 cudaEventElapsedTime(float* milliseconds, cudaEvent_t begin, cudaEvent_t end)
 {
+  const auto guard = lock();
   *milliseconds =
       std::chrono::duration<float, std::milli>(end->time - begin->time).count();
   return cudaSuccess;

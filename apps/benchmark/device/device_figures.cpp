@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "device_figures.h"
+
+#include "cuda_backend.h"
+#include "energy_meter.h"
+#include "error.h"
+#include "preparation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <thread>
+
+namespace pcl_flashreg::benchmark {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double
+secondsSince(Clock::time_point begin)
+{
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::size_t
+freeBytes()
+{
+  std::size_t free = 0, total = 0;
+  PCL_FLASHREG_CUDA(cudaMemGetInfo(&free, &total));
+  return free;
+}
+
+int
+currentDevice()
+{
+  int device = 0;
+  PCL_FLASHREG_CUDA(cudaGetDevice(&device));
+  return device;
+}
+
+/** \brief Runs the pipeline on a problem whose points are on the device. */
+class ResidentCall {
+public:
+  ResidentCall(const CorrespondenceView<double>& correspondences,
+               const Parameters& parameters)
+      : parameters_(parameters)
+  {
+    Preparation preparation;
+    prepare(correspondences,
+            static_cast<std::size_t>(parameters.max_correspondences),
+            preparation,
+            problem_);
+    cuda::Options options;
+    options.resident_points = true;
+    options.stage_timings = false;
+    backend_ = cuda::makeBackend(options);
+  }
+
+  void
+  operator()()
+  {
+    StageTimings timings;
+    StageClock clock(timings);
+    backend_->run(problem_, parameters_, std::nullopt, false, clock, nullptr);
+  }
+
+private:
+  Parameters parameters_;
+  Problem problem_;
+  std::unique_ptr<Backend> backend_;
+};
+
+Spread
+timeCalls(ResidentCall& call, int runs)
+{
+  std::vector<double> times;
+  for (int i = 0; i < runs; ++i) {
+    const Clock::time_point begin = Clock::now();
+    call();
+    times.push_back(1e3 * secondsSince(begin));
+  }
+  return spreadOf(times);
+}
+
+/** \brief Millijoules a call. */
+std::optional<double>
+energyOf(ResidentCall& call, double seconds)
+{
+  char bus_id[32] = {};
+  PCL_FLASHREG_CUDA(cudaDeviceGetPCIBusId(bus_id, sizeof bus_id, currentDevice()));
+  const EnergyMeter meter(bus_id);
+  const std::optional<double> before = meter.read();
+  if (!before)
+    return std::nullopt;
+  const Clock::time_point begin = Clock::now();
+  std::size_t calls = 0;
+  for (; secondsSince(begin) < seconds; ++calls)
+    call();
+  const std::optional<double> after = meter.read();
+  if (!after || calls == 0)
+    return std::nullopt;
+  return (*after - *before) / static_cast<double>(calls);
+}
+
+/** \brief A thread an estimator, which all begin when all are warm. */
+Throughput
+measureThroughput(const CorrespondenceView<double>& correspondences,
+                  const Parameters& parameters,
+                  unsigned streams,
+                  int runs)
+{
+  std::vector<Estimator> estimators;
+  for (unsigned s = 0; s < streams; ++s) {
+    estimators.emplace_back(BackendKind::Cuda, 1);
+    for (int i = 0; i < WARM_UP_RUNS; ++i)
+      estimators.back().estimate(correspondences, parameters);
+  }
+  std::promise<void> starting_shot;
+  const std::shared_future<void> start(starting_shot.get_future());
+  std::vector<std::future<void>> ends;
+  for (Estimator& estimator : estimators)
+    ends.push_back(std::async(std::launch::async, [&, start] {
+      start.wait();
+      for (int i = 0; i < runs; ++i)
+        estimator.estimate(correspondences, parameters);
+    }));
+  const Clock::time_point begin = Clock::now();
+  starting_shot.set_value();
+  for (std::future<void>& end : ends)
+    end.get();
+  return {streams, streams * static_cast<double>(runs) / secondsSince(begin)};
+}
+
+} // namespace
+
+DeviceFigures
+measureOnDevice(const CorrespondenceView<double>& correspondences,
+                const Parameters& parameters,
+                const DeviceEffort& effort)
+{
+  DeviceFigures figures;
+  {
+    const std::size_t free = freeBytes();
+    ResidentCall call(correspondences, parameters);
+    for (int i = 0; i < WARM_UP_RUNS; ++i)
+      call();
+    figures.resident_ms = timeCalls(call, effort.runs);
+    figures.memory_bytes = free - std::min(free, freeBytes());
+    if (effort.energy_seconds > 0)
+      figures.energy_mj = energyOf(call, effort.energy_seconds);
+  }
+  for (const unsigned streams : effort.streams)
+    figures.throughput.push_back(
+        measureThroughput(correspondences, parameters, streams, effort.runs));
+  return figures;
+}
+
+std::string
+deviceName()
+{
+  cudaDeviceProp properties;
+  PCL_FLASHREG_CUDA(cudaGetDeviceProperties(&properties, currentDevice()));
+  return properties.name;
+}
+
+} // namespace pcl_flashreg::benchmark

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "../spread.h"
+
+#include <pcl_flashreg/estimator.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl_flashreg::benchmark {
+
+/** \brief Estimators that work side by side, each with its thread and its stream. */
+struct Throughput {
+  unsigned streams = 1;
+  double pairs_per_second = 0;
+};
+
+/** \brief What is measured on a device alone. */
+struct DeviceFigures {
+  /** \brief Wall-clock time, ms, of one call whose correspondences, prepared, lie on the
+   * device already: from there to the pose and the inliers in host memory. */
+  Spread resident_ms;
+  /** \brief What one estimator takes of the device's memory, in the end, which is when it
+   * takes most. */
+  std::size_t memory_bytes = 0;
+  /** \brief From correspondences in host memory to the pose there. */
+  std::vector<Throughput> throughput;
+  /** \brief Energy of the whole board a call, correspondences resident, idle power not
+   * subtracted. Nothing where NVML can't tell. */
+  std::optional<double> energy_mj;
+};
+
+/** \brief How much is measured. */
+struct DeviceEffort {
+  int runs = 200;
+  std::vector<unsigned> streams;
+  /** \brief 0: energy is not measured. */
+  double energy_seconds = 0;
+};
+
+/** \throws BackendError */
+DeviceFigures
+measureOnDevice(const CorrespondenceView<double>& correspondences,
+                const Parameters& parameters,
+                const DeviceEffort& effort);
+
+/** \brief What the driver calls the device.
+ * \throws BackendError */
+std::string
+deviceName();
+
+} // namespace pcl_flashreg::benchmark
