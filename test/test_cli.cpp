@@ -50,16 +50,9 @@ TEST_F(CliTest, jsonHasItsKeys)
     EXPECT_GT(timings.at(stage).get<double>(), 0) << stage;
     sum += timings.at(stage).get<double>();
   }
-  for (const char* stage : {"preparation",
-                            "first_order_graph",
-                            "second_order_graph",
-                            "pivots",
-                            "cliques",
-                            "hypotheses",
-                            "verification",
-                            "refinement"}) {
-    EXPECT_GE(timings.at(stage).get<double>(), 0) << stage;
-    sum += timings.at(stage).get<double>();
+  for (const Stage& stage : STAGES) {
+    EXPECT_GE(timings.at(stage.name).get<double>(), 0) << stage.name;
+    sum += timings.at(stage.name).get<double>();
   }
   EXPECT_GE(timings.at("total").get<double>(), sum);
 }

@@ -50,6 +50,7 @@ protected:
     r.times.estimation = static_cast<double>(pair);
     r.times.stages.emplace();
     r.times.stages->refinement = 0.25;
+    r.times.stages->cloud_check = 0.5;
     Record slow = r;
     slow.method = "slow";
     slow.success = pair == 0;
@@ -111,6 +112,7 @@ TEST_F(EvaluateResults, filesHoldEverything)
   EXPECT_FALSE(r.times.stages);
   ASSERT_TRUE(read.records[4].times.stages);
   EXPECT_EQ(read.records[4].times.stages->refinement, 0.25);
+  EXPECT_EQ(read.records[4].times.stages->cloud_check, 0.5);
   writeResults(path("again.csv"), read);
   EXPECT_EQ(this->read("again.csv"), this->read("r.csv"));
   EXPECT_EQ(this->read("again.times.csv"), this->read("r.times.csv"));
@@ -251,9 +253,11 @@ TEST_F(EvaluateResults, sumsAreRight)
   EXPECT_NEAR(fast.translation_error.median, 0.1, 1e-12);
   EXPECT_EQ(fast.estimation_ms.median, 1);
   EXPECT_NEAR(fast.estimation_ms.p95, 1.9, 1e-12);
-  ASSERT_EQ(fast.stages_ms.size(), 8u);
+  ASSERT_EQ(fast.stages_ms.size(), STAGES.size());
   EXPECT_EQ(fast.stages_ms[7].name, "refinement");
   EXPECT_EQ(fast.stages_ms[7].spread.median, 0.25);
+  EXPECT_EQ(fast.stages_ms[8].name, "cloud_check");
+  EXPECT_EQ(fast.stages_ms[8].spread.median, 0.5);
   EXPECT_NEAR(slow.recall, 1.0 / 3, 1e-12);
   EXPECT_NEAR(slow.precision, 1.0 / 3, 1e-12);
   EXPECT_NEAR(slow.recall_difference, -2.0 / 3, 1e-12);

@@ -45,21 +45,15 @@ Json
 timingsOf(const Outcome& outcome)
 {
   const StageTimings& stages = outcome.result.timings_ms;
-  return {{"voxel_grid", outcome.features_ms.voxel_grid},
-          {"normals", outcome.features_ms.normals},
-          {"features", outcome.features_ms.features},
-          {"matching", outcome.matching_ms},
-          {"preparation", stages.preparation},
-          {"first_order_graph", stages.first_order_graph},
-          {"second_order_graph", stages.second_order_graph},
-          {"pivots", stages.pivots},
-          {"cliques", stages.cliques},
-          {"hypotheses", stages.hypotheses},
-          {"verification", stages.verification},
-          {"refinement", stages.refinement},
-          {"cloud_check", stages.cloud_check},
-          {"estimation", stages.total},
-          {"total", outcome.total_ms}};
+  Json timings = {{"voxel_grid", outcome.features_ms.voxel_grid},
+                  {"normals", outcome.features_ms.normals},
+                  {"features", outcome.features_ms.features},
+                  {"matching", outcome.matching_ms}};
+  for (const Stage& stage : STAGES)
+    timings[stage.name] = stages.*stage.milliseconds;
+  timings["estimation"] = stages.total;
+  timings["total"] = outcome.total_ms;
+  return timings;
 }
 
 Json

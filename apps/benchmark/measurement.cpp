@@ -25,12 +25,15 @@ measure(const std::string& name,
   std::vector<StageTimings> timings;
   for (int i = 0; i < runs; ++i)
     timings.push_back(estimator.estimate(correspondences, parameters).timings_ms);
-  for (std::size_t s = 0; s < STAGES.size(); ++s) {
+  const auto spread = [&](double StageTimings::*milliseconds) {
     std::vector<double> times;
     for (const StageTimings& t : timings)
-      times.push_back(t.*STAGES[s].second);
-    measurement.stages[s] = spreadOf(times);
-  }
+      times.push_back(t.*milliseconds);
+    return spreadOf(times);
+  };
+  for (std::size_t s = 0; s < STAGES.size(); ++s)
+    measurement.stages[s] = spread(STAGES[s].milliseconds);
+  measurement.total = spread(&StageTimings::total);
   return measurement;
 }
 

@@ -11,26 +11,9 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace pcl_flashreg::benchmark {
-
-/** \brief A stage's name, as in the method and the JSON, and where its time stands. */
-using StageField = std::pair<const char*, double StageTimings::*>;
-
-/** \brief All stages in order, the total last. */
-constexpr std::array<StageField, 9> STAGES = {{
-    {"preparation", &StageTimings::preparation},
-    {"first_order_graph", &StageTimings::first_order_graph},
-    {"second_order_graph", &StageTimings::second_order_graph},
-    {"pivots", &StageTimings::pivots},
-    {"cliques", &StageTimings::cliques},
-    {"hypotheses", &StageTimings::hypotheses},
-    {"verification", &StageTimings::verification},
-    {"refinement", &StageTimings::refinement},
-    {"total", &StageTimings::total},
-}};
 
 /** \brief One problem, timed. */
 struct Measurement {
@@ -43,6 +26,7 @@ struct Measurement {
    * are timed there, by marks in its stream; the preparation and the total are the
    * host's. */
   std::array<Spread, STAGES.size()> stages;
+  Spread total;
   std::optional<DeviceFigures> device;
 };
 

@@ -63,7 +63,8 @@ toJson(const Measurement& m)
 {
   nlohmann::json stages;
   for (std::size_t s = 0; s < STAGES.size(); ++s)
-    stages[STAGES[s].first] = toJson(m.stages[s]);
+    stages[STAGES[s].name] = toJson(m.stages[s]);
+  stages["total"] = toJson(m.total);
   nlohmann::json json{{"name", m.name},
                       {"correspondences", m.size},
                       {"inliers", m.result.inliers.size()},
@@ -94,9 +95,9 @@ printHeader(const Setting& setting)
               "graph 2",
               "N",
               "inliers");
-  for (const StageField& stage : STAGES)
-    std::printf(" %9.9s", stage.first);
-  std::printf(" %8s %8s %8s\n", "p10", "p90", "cold");
+  for (const Stage& stage : STAGES)
+    std::printf(" %9.9s", stage.name);
+  std::printf(" %9s %8s %8s %8s\n", "total", "p10", "p90", "cold");
 }
 
 void
@@ -109,8 +110,11 @@ print(const Measurement& m)
               m.result.inliers.size());
   for (const Spread& stage : m.stages)
     std::printf(" %9.3f", stage.median);
-  std::printf(
-      " %8.3f %8.3f %8.3f\n", m.stages.back().p10, m.stages.back().p90, m.cold_ms);
+  std::printf(" %9.3f %8.3f %8.3f %8.3f\n",
+              m.total.median,
+              m.total.p10,
+              m.total.p90,
+              m.cold_ms);
   if (m.device)
     printDevice(*m.device);
   std::fflush(stdout);

@@ -5,6 +5,7 @@
 
 #include <pcl_flashreg/cloud_view.h>
 #include <pcl_flashreg/parameters.h>
+#include <pcl_flashreg/stage_timings.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -59,23 +60,6 @@ enum class Status {
 /** \brief One line, without a full stop, for messages. */
 PCL_FLASHREG_EXPORT const char*
 toString(Status status);
-
-/** \brief Wall-clock time of each stage in milliseconds; the names are METHOD's. */
-struct StageTimings {
-  /** \brief Checking, ranking, centring and packing the input. */
-  double preparation = 0;
-  double first_order_graph = 0;
-  double second_order_graph = 0;
-  double pivots = 0;
-  double cliques = 0;
-  double hypotheses = 0;
-  double verification = 0;
-  double refinement = 0;
-  /** \brief Bringing the hypotheses before the clouds, where there are any. */
-  double cloud_check = 0;
-  /** \brief The whole call. */
-  double total = 0;
-};
 
 /** \brief A pose, and what speaks for it. */
 struct Hypothesis {

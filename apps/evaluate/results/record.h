@@ -5,29 +5,11 @@
 
 #include <pcl_flashreg/result.h>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 
 namespace pcl_flashreg::evaluate {
-
-/** \brief A stage of this project's estimator. */
-struct Stage {
-  const char* name;
-  double StageTimings::*milliseconds;
-};
-
-inline constexpr std::array<Stage, 8> STAGES = {{
-    {"preparation", &StageTimings::preparation},
-    {"first_order_graph", &StageTimings::first_order_graph},
-    {"second_order_graph", &StageTimings::second_order_graph},
-    {"pivots", &StageTimings::pivots},
-    {"cliques", &StageTimings::cliques},
-    {"hypotheses", &StageTimings::hypotheses},
-    {"verification", &StageTimings::verification},
-    {"refinement", &StageTimings::refinement},
-}};
 
 /** \brief Milliseconds. */
 struct Times {
