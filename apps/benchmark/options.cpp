@@ -9,9 +9,10 @@ namespace {
 void
 declareProblems(CLI::App& app, Options& options)
 {
-  app.add_option("--sizes",
-                 options.sizes,
-                 "numbers of made correspondences [1000 to 20000; on a device to 100000]")
+  app.add_option(
+         "--sizes",
+         options.sizes,
+         "numbers of made correspondences [1000 to 20000; on a device to 100000]")
       ->delimiter(',');
   app.add_option(
          "--inlier-ratios", options.inlier_ratios, "shares of right ones, 0 to 1")
@@ -27,9 +28,10 @@ declareProblems(CLI::App& app, Options& options)
   app.add_option("--correspondences",
                  options.files,
                  "time these files instead: six columns, or two files SOURCE,TARGET");
-  app.add_option("--export",
-                 options.export_folder,
-                 "write the correspondences into this folder, six columns, and time nothing");
+  app.add_option(
+      "--export",
+      options.export_folder,
+      "write the correspondences into this folder, six columns, and time nothing");
 }
 
 void

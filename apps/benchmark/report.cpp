@@ -90,11 +90,8 @@ printHeader(const Setting& setting)
               version(),
               PCL_FLASHREG_COMMIT,
               PCL_FLASHREG_BUILD);
-  std::printf("%-26s %-7s %7s %8s",
-              "problem (times: median ms)",
-              "graph 2",
-              "N",
-              "inliers");
+  std::printf(
+      "%-26s %-7s %7s %8s", "problem (times: median ms)", "graph 2", "N", "inliers");
   for (const Stage& stage : STAGES)
     std::printf(" %9.9s", stage.name);
   std::printf(" %9s %8s %8s %8s\n", "total", "p10", "p90", "cold");

@@ -83,8 +83,7 @@ protected:
              const std::string& launcher = "") const
   {
     const std::string command = "cd '" + folder_.string() + "' && " + launcher + " '" +
-                                program + "' " + arguments +
-                                " >.out 2>.err </dev/null";
+                                program + "' " + arguments + " >.out 2>.err </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
             read(".out"),

@@ -29,8 +29,7 @@ EnergyMeter::EnergyMeter(const std::string& pci_bus_id)
   if (!library_)
     return;
   const auto init = find<Init>(library_, "nvmlInit_v2");
-  const auto handle =
-      find<HandleByBusId>(library_, "nvmlDeviceGetHandleByPciBusId_v2");
+  const auto handle = find<HandleByBusId>(library_, "nvmlDeviceGetHandleByPciBusId_v2");
   if (init && handle && init() == 0 && handle(pci_bus_id.c_str(), &device_) != 0)
     device_ = nullptr;
 }
