@@ -6,7 +6,7 @@
 
 #include "../io/cloud_io.h"
 #include "../io/pcl_cloud.h"
-#include "machine.h"
+#include "provenance.h"
 #include "spread.h"
 
 #include <pcl_flashreg/pcl_front_end.h>
@@ -150,8 +150,8 @@ measureAndPrint(const Options& options)
               processorName().c_str(),
               estimator.backendName().c_str(),
               version(),
-              PCL_FLASHREG_COMMIT,
-              PCL_FLASHREG_BUILD,
+              commit(),
+              buildType(),
               source->size(),
               target->size(),
               options.leaf);

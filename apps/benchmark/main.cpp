@@ -5,7 +5,7 @@
 
 #include "../io/error.h"
 #include "../io/file.h"
-#include "machine.h"
+#include "provenance.h"
 #include "problems.h"
 #include "report.h"
 

@@ -3,6 +3,8 @@
 
 #include "report.h"
 
+#include "provenance.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -88,8 +90,8 @@ printHeader(const Setting& setting)
               setting.device.empty() ? "" : ", ",
               setting.backend.c_str(),
               version(),
-              PCL_FLASHREG_COMMIT,
-              PCL_FLASHREG_BUILD);
+              commit(),
+              buildType());
   std::printf(
       "%-26s %-7s %7s %8s", "problem (times: median ms)", "graph 2", "N", "inliers");
   for (const Stage& stage : STAGES)
@@ -128,8 +130,8 @@ toJson(const Setting& setting,
                       {"start_ms", setting.start_ms},
                       {"threads", options.threads},
                       {"version", version()},
-                      {"commit", PCL_FLASHREG_COMMIT},
-                      {"build", PCL_FLASHREG_BUILD},
+                      {"commit", commit()},
+                      {"build", buildType()},
                       {"compiler", __VERSION__},
                       {"runs", options.runs},
                       {"measurements", nlohmann::json::array()}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-#include "machine.h"
+#include "provenance.h"
 
 #include <fstream>
 #include <thread>
@@ -19,6 +19,12 @@ processorName()
       break;
     }
   return name + " x " + std::to_string(std::thread::hardware_concurrency());
+}
+
+const char*
+buildType()
+{
+  return PCL_FLASHREG_BUILD;
 }
 
 } // namespace pcl_flashreg::benchmark

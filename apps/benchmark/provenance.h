@@ -12,4 +12,13 @@ namespace pcl_flashreg::benchmark {
 std::string
 processorName();
 
+/** \brief The commit that this was built from, "-dirty" behind it if there were changes;
+ * "unknown" outside of a repository. */
+const char*
+commit();
+
+/** \brief CMake's build type. */
+const char*
+buildType();
+
 } // namespace pcl_flashreg::benchmark
