@@ -10,6 +10,7 @@
 
 #include "cliques.cuh"
 
+#include "best_third.cuh"
 #include "block.cuh"
 #include "launch.cuh"
 
@@ -18,51 +19,6 @@ namespace cuda {
 namespace {
 
 constexpr unsigned WARPS = 4;
-
-/** \brief The best of what a lane saw, best first, as numbers whose order is score, then
- * smaller vertex; 0 where there is none. Indices are constants, so it lies in registers. */
-template <unsigned CAPACITY>
-class BestThird {
-public:
-  __device__ void
-  offer(unsigned w, unsigned score)
-  {
-    unsigned long long key = (static_cast<unsigned long long>(score) << 32) | (~0u - w);
-#pragma unroll
-    for (unsigned i = 0; i < CAPACITY; ++i)
-      if (key > best_[i]) {
-        const unsigned long long smaller = best_[i];
-        best_[i] = key;
-        key = smaller;
-      }
-  }
-  __device__ unsigned long long
-  first() const
-  {
-    return best_[0];
-  }
-  __device__ void
-  dropFirst()
-  {
-#pragma unroll
-    for (unsigned i = 0; i + 1 < CAPACITY; ++i)
-      best_[i] = best_[i + 1];
-    best_[CAPACITY - 1] = 0;
-  }
-  __device__ static unsigned
-  vertex(unsigned long long key)
-  {
-    return ~0u - static_cast<unsigned>(key);
-  }
-  __device__ static unsigned
-  score(unsigned long long key)
-  {
-    return static_cast<unsigned>(key >> 32);
-  }
-
-private:
-  unsigned long long best_[CAPACITY] = {};
-};
 
 /** \brief Where a column stands in an ascending row, or the row's length. */
 __device__ inline unsigned

@@ -52,13 +52,7 @@ usableDevice()
 
 class CudaBackend : public Backend {
 public:
-  CudaBackend(const Options& options, int device)
-      : stages_(
-            options,
-            static_cast<unsigned>(attribute(cudaDevAttrMultiProcessorCount, device)),
-            attribute(cudaDevAttrCooperativeLaunch, device) != 0)
-  {
-  }
+  explicit CudaBackend(const Options& options) : stages_(makeStages(options)) {}
 
   std::string
   name() const override
@@ -94,7 +88,17 @@ private:
 std::unique_ptr<Backend>
 makeBackend(const Options& options)
 {
-  return std::make_unique<CudaBackend>(options, usableDevice());
+  return std::make_unique<CudaBackend>(options);
+}
+
+Stages
+makeStages(const Options& options)
+{
+  const int device = usableDevice();
+  return Stages(
+      options,
+      static_cast<unsigned>(attribute(cudaDevAttrMultiProcessorCount, device)),
+      attribute(cudaDevAttrCooperativeLaunch, device) != 0);
 }
 
 } // namespace cuda

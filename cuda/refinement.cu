@@ -15,6 +15,7 @@
 #include "launch.cuh"
 #include "math/distinctness.h"
 #include "refine_pose.cuh"
+#include "slot_rank.cuh"
 
 #include <cooperative_groups.h>
 
@@ -23,21 +24,6 @@
 namespace pcl_flashreg {
 namespace cuda {
 namespace {
-
-constexpr unsigned SLOT_BITS = 25;
-constexpr unsigned LARGEST_SLOT = (1u << SLOT_BITS) - 1;
-
-/** \brief A number whose descending order is score, then pivot and clique order. */
-__device__ inline unsigned long long
-rankOf(long long score, unsigned slot)
-{
-  return (static_cast<unsigned long long>(score) << SLOT_BITS) | (LARGEST_SLOT - slot);
-}
-__device__ inline unsigned
-slotOf(unsigned long long rank)
-{
-  return LARGEST_SLOT - (static_cast<unsigned>(rank) & LARGEST_SLOT);
-}
 
 /** \brief Whether two of the three correspondences behind a hypothesis agree with one that
  * is listed already. */

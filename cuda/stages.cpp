@@ -53,15 +53,16 @@ Stages::begin(const Problem& problem,
     call_.guess = *guess;
   reserveHypotheses();
   reserveReport();
-  graph_.reserve(std::size_t{call_.padded} * call_.words);
+  if (options_.bits)
+    graph_.reserve(std::size_t{call_.padded} * call_.words);
   call_.graph = graph_.data();
   if (parameters.second_order == SecondOrder::Exact)
     call_.exact = true;
   if (parameters.second_order == SecondOrder::Bounded)
     call_.exact = false;
-  if (call_.exact)
+  if (options_.lists && call_.exact)
     planExact(static_cast<unsigned long long>(options_.expected_degree) * call_.size);
-  else
+  else if (options_.lists)
     planBounded();
   if (!options_.resident_points || !uploaded_)
     upload(problem);
@@ -137,10 +138,14 @@ Stages::reserveHypotheses()
   poses_.reserve(call_.slots);
   slot_poses_.reserve(call_.slots);
   pose_scores_.reserve(call_.slots);
-  candidate_inliers_.reserve(std::size_t{MOST_CANDIDATES} * call_.words);
-  candidate_lists_.reserve(std::size_t{MOST_CANDIDATES} * call_.padded);
+  if (options_.candidates) {
+    candidate_inliers_.reserve(std::size_t{MOST_CANDIDATES} * call_.words);
+    candidate_lists_.reserve(std::size_t{MOST_CANDIDATES} * call_.padded);
+  }
   call_.row_best = row_best_.data();
   call_.tie_begin = tie_begin_.data();
+  call_.pivot_keys = pivot_keys_.data();
+  call_.pivot_keys_other = pivot_keys_.data() + call_.pivots;
   call_.cliques = cliques_.data();
   call_.clique_counts = clique_counts_.data();
   call_.poses = poses_.data();
@@ -218,8 +223,6 @@ void
 Stages::secondOrderGraph()
 {
   PCL_FLASHREG_CUDA(cudaMemsetAsync(report_.data(), 0, cleared_bytes_, stream_.get()));
-  call_.pivot_keys = pivot_keys_.data();
-  call_.pivot_keys_other = pivot_keys_.data() + call_.pivots;
   listNeighbours(call_, stream_.get());
   if (call_.exact)
     scoreExactly(call_, stream_.get());
@@ -328,6 +331,34 @@ Stages::result() const
     for (unsigned bits = inliers[w]; bits != 0; bits &= bits - 1)
       estimate.inliers.push_back(static_cast<int>(32 * w) + __builtin_ctz(bits));
   return estimate;
+}
+
+std::size_t
+Stages::deviceBytes() const
+{
+  const auto sum = [](const auto&... buffers) {
+    return (std::size_t{0} + ... + buffers.bytes());
+  };
+  return sum(points_,
+             graph_,
+             columns_,
+             scores_,
+             neighbour_rows_,
+             rows_,
+             pool_rows_,
+             pool_columns_,
+             pool_scores_,
+             row_best_,
+             tie_begin_,
+             pivot_keys_,
+             cliques_,
+             clique_counts_,
+             poses_,
+             slot_poses_,
+             pose_scores_,
+             candidate_inliers_,
+             candidate_lists_,
+             report_);
 }
 
 void

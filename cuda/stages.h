@@ -59,6 +59,22 @@ public:
   void
   copyTo(Trace& trace) const;
 
+  /** \brief What the kernels of the call under way are told, and the stream that they go
+   * into: for comparisons that do a stage in another way. */
+  const Call&
+  call() const
+  {
+    return call_;
+  }
+  const Stream&
+  stream() const
+  {
+    return stream_;
+  }
+  /** \brief Bytes of device memory that are held. */
+  std::size_t
+  deviceBytes() const;
+
   /** \brief Waits for whatever is under way, after a failure. */
   void
   abandon() noexcept;
@@ -97,7 +113,7 @@ private:
   std::vector<T>
   download(const T* from, std::size_t n) const;
   void
-  traceGraphs(Trace& trace) const;
+  traceBits(Trace& trace) const;
   void
   traceRows(const Rows& rows, std::size_t entries, std::vector<Edge>& edges) const;
   void

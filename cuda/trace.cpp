@@ -42,21 +42,13 @@ Stages::traceRows(const Rows& rows, std::size_t entries, std::vector<Edge>& edge
 }
 
 void
-Stages::traceGraphs(Trace& trace) const
+Stages::traceBits(Trace& trace) const
 {
-  const std::size_t n = call_.size;
-  trace.size = n;
-  trace.words_per_row = call_.padded / WORD_BITS;
-  trace.first_order_graph.resize(n * trace.words_per_row);
-  const std::vector<unsigned> words = download(call_.graph, n * call_.words);
+  trace.first_order_graph.resize(trace.size * trace.words_per_row);
+  const std::vector<unsigned> words = download(call_.graph, trace.size * call_.words);
   if (!words.empty())
     std::memcpy(
         trace.first_order_graph.data(), words.data(), words.size() * sizeof(unsigned));
-  traceRows(call_.upper,
-            call_.exact ? control().entries : n * call_.row_capacity,
-            trace.second_order_graph);
-  if (!call_.exact)
-    traceRows(call_.pool, n * call_.pool_capacity, trace.pools);
 }
 
 void
@@ -106,8 +98,18 @@ Stages::candidates() const
 void
 Stages::copyTo(Trace& trace) const
 {
+  const std::size_t n = call_.size;
   trace = Trace{};
-  traceGraphs(trace);
+  trace.size = n;
+  trace.words_per_row = call_.padded / WORD_BITS;
+  if (options_.bits)
+    traceBits(trace);
+  if (options_.lists)
+    traceRows(call_.upper,
+              call_.exact ? control().entries : n * call_.row_capacity,
+              trace.second_order_graph);
+  if (options_.lists && !call_.exact)
+    traceRows(call_.pool, n * call_.pool_capacity, trace.pools);
   traceHypotheses(trace);
 }
 
