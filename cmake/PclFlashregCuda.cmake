@@ -66,25 +66,29 @@ set(PCL_FLASHREG_CUDA_HOST
 list(TRANSFORM PCL_FLASHREG_CUDA_KERNELS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 list(TRANSFORM PCL_FLASHREG_CUDA_HOST PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 
-# Adds the CUDA backend to the core.
-function(pcl_flashreg_add_cuda core)
-  # A target of its own: nvcc knows none of the host compiler's options.
-  add_library(pcl_flashreg_kernels OBJECT ${PCL_FLASHREG_CUDA_KERNELS})
-  target_include_directories(pcl_flashreg_kernels PRIVATE
+# A library of kernels. A target of its own: nvcc knows none of the host compiler's options.
+function(pcl_flashreg_add_kernels target)
+  add_library(${target} OBJECT ${ARGN})
+  target_include_directories(${target} PRIVATE
     ${PROJECT_SOURCE_DIR}/cuda ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
   # As on the host: no contraction but where the source says so; division and roots are
   # rounded correctly, as is nvcc's default.
-  target_compile_options(pcl_flashreg_kernels PRIVATE --fmad=false)
+  target_compile_options(${target} PRIVATE --fmad=false)
   if(PCL_FLASHREG_WERROR)
-    target_compile_options(pcl_flashreg_kernels PRIVATE
+    target_compile_options(${target} PRIVATE
       --Werror=all-warnings -Xcompiler=-Wall,-Wextra)
   endif()
-  set_target_properties(pcl_flashreg_kernels PROPERTIES
+  set_target_properties(${target} PROPERTIES
     CUDA_STANDARD 17
     CUDA_STANDARD_REQUIRED ON
     POSITION_INDEPENDENT_CODE ON
     CUDA_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
+# Adds the CUDA backend to the core.
+function(pcl_flashreg_add_cuda core)
+  pcl_flashreg_add_kernels(pcl_flashreg_kernels ${PCL_FLASHREG_CUDA_KERNELS})
 
   target_sources(${core} PRIVATE
     ${PCL_FLASHREG_CUDA_HOST} $<TARGET_OBJECTS:pcl_flashreg_kernels>)

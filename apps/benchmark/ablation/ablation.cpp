@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "ablation.h"
+
+#include "ablation_stages.h"
+
+#include <cstdio>
+
+namespace pcl_flashreg::benchmark {
+namespace {
+
+constexpr int WARM_UP_RUNS = 3;
+
+AblationMeasurement
+measureRow(const AblationRow& row,
+           const Problem& problem,
+           const Parameters& parameters,
+           int runs)
+{
+  AblationMeasurement measurement;
+  measurement.row = row;
+  AblationStages stages(row);
+  std::vector<StageTimings> timings;
+  for (int i = -WARM_UP_RUNS; i < runs; ++i) {
+    StageTimings t;
+    StageClock clock(t);
+    const PoseEstimate estimate =
+        runPipeline(stages, problem, parameters, std::nullopt, false, clock, nullptr);
+    measurement.inliers = estimate.inliers.size();
+    // Stages follow each other without a gap.
+    for (std::size_t s = 0; s + 1 < ABLATION_STAGES.size(); ++s)
+      t.total += t.*ABLATION_STAGES[s].second;
+    if (i >= 0)
+      timings.push_back(t);
+  }
+  for (std::size_t s = 0; s < ABLATION_STAGES.size(); ++s) {
+    std::vector<double> times;
+    for (const StageTimings& t : timings)
+      times.push_back(t.*ABLATION_STAGES[s].second);
+    measurement.stages[s] = spreadOf(times);
+  }
+  measurement.device_bytes = stages.deviceBytes();
+  return measurement;
+}
+
+} // namespace
+
+std::vector<AblationMeasurement>
+measureAblation(const Problem& problem, const Parameters& parameters, int runs)
+{
+  std::vector<AblationMeasurement> measurements;
+  for (const AblationRow& row : ablationRows())
+    measurements.push_back(measureRow(row, problem, parameters, runs));
+  return measurements;
+}
+
+void
+printAblation(const std::vector<AblationMeasurement>& measurements)
+{
+  std::printf("%-28s", "ablation (median ms)");
+  for (const char* column : {"graph 1",
+                             "graph 2",
+                             "pivots",
+                             "cliques",
+                             "hypoth.",
+                             "verif.",
+                             "refine.",
+                             "total"})
+    std::printf(" %8s", column);
+  std::printf(" %8s %8s\n", "inliers", "MB");
+  for (const AblationMeasurement& m : measurements) {
+    std::printf("%-28s", m.row.name.c_str());
+    for (std::size_t s = 0; s < m.stages.size(); ++s)
+      if (ABLATION_STAGES[s].second == &StageTimings::pivots &&
+          m.row.pivotsInSecondOrder())
+        std::printf(" %8s", "--");
+      else
+        std::printf(" %8.3f", m.stages[s].median);
+    std::printf(" %8zu %8.1f\n", m.inliers, 1e-6 * static_cast<double>(m.device_bytes));
+  }
+}
+
+} // namespace pcl_flashreg::benchmark
