@@ -19,7 +19,14 @@ struct Options {
    * for at first. A denser graph costs a second attempt, once; memory for this one costs
    * less than the bit matrix at the usual sizes. */
   unsigned expected_degree = 128;
+  /** \brief Every problem is the first one: its points are copied in with the first call
+   * and stay, as those do that another step on the device has left there. */
+  bool resident_points = false;
   /** \brief What memory is kept for: the bit matrix, the lists of stage 2, the poses that
    * stage 7 refines side by side. A comparison that does these stages in another way runs
    * without. */
   bool bits = true, lists = true, candidates = true;
+};
+
+} // namespace cuda
+} // namespace pcl_flashreg

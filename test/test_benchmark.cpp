@@ -37,6 +37,8 @@ TEST_F(Benchmark, TimesADevice)
   const auto json = nlohmann::json::parse(read("out.json"));
   EXPECT_EQ(json.at("backend"), "cuda");
   EXPECT_EQ(json.at("device"), "emulated device");
+  EXPECT_GT(json.at("ceilings").at("operations_per_second"), 0);
+  EXPECT_GT(json.at("ceilings").at("cache_bytes_per_second"), 0);
   const auto& all = json.at("measurements");
   ASSERT_EQ(all.size(), 4u); // two sizes, exact and bounded
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -62,6 +64,28 @@ TEST_F(Benchmark, TimesADevice)
     EXPECT_EQ(device.at("throughput")[1].at("streams"), 3);
     EXPECT_GT(device.at("throughput")[1].at("pairs_per_second"), 0);
     EXPECT_TRUE(device.contains("energy_mj"));
+    const auto& floor = device.at("floor_ms");
+    EXPECT_GT(floor.at("first_order_graph"), 0);
+    EXPECT_GT(floor.at("verification"), 0);
+    EXPECT_EQ(floor.at("second_order_graph").is_null(), i % 2 == 1);
+  }
+}
+
+TEST_F(Benchmark, TimesTheAblation)
+{
+  const ProgramRun run = benchmark("--sizes 90 --inlier-ratios 0.3 --runs 1 "
+                                   "--backend cuda --ablation --json out.json");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("Dense reference"), std::string::npos) << run.out;
+  const auto ablations = nlohmann::json::parse(read("out.json")).at("ablations");
+  ASSERT_EQ(ablations.size(), 1u);
+  EXPECT_EQ(ablations[0].at("correspondences"), 90);
+  const auto& rows = ablations[0].at("rows");
+  ASSERT_GT(rows.size(), 8u); // the paper's, and this project's own
+  for (const auto& row : rows) {
+    EXPECT_GT(row.at("timings_ms").at("total").at("median"), 0) << row;
+    EXPECT_GT(row.at("memory_bytes"), 0) << row;
+    EXPECT_EQ(row.at("inliers"), rows[0].at("inliers")) << row;
   }
 }
 

@@ -166,7 +166,7 @@ TEST(CudaAblation, EveryStageHasATimeAndEveryRowTheSameInliers)
   for (const AblationMeasurement& m : rows) {
     EXPECT_EQ(m.inliers, rows.front().inliers) << m.row.name;
     for (std::size_t s = 0; s < m.stages.size(); ++s)
-      if (ABLATION_STAGES[s].second == &StageTimings::pivots &&
+      if (ABLATION_STAGES[s].milliseconds == &StageTimings::pivots &&
           m.row.pivotsInSecondOrder())
         EXPECT_EQ(m.stages[s].median, 0) << m.row.name;
       else

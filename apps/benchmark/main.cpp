@@ -7,6 +7,7 @@
 #include "../io/file.h"
 #include "provenance.h"
 #include "problems.h"
+#include "preparation.h"
 #include "report.h"
 
 #include <chrono>
@@ -31,9 +32,11 @@ start(const Options& options)
   const Estimator first(kindOf(options.backend), options.threads);
   const std::chrono::duration<double, std::milli> elapsed =
       std::chrono::steady_clock::now() - begin;
-  Setting setting{processorName(), first.backendName(), "", elapsed.count()};
-  if (setting.backend == "cuda")
+  Setting setting{processorName(), first.backendName(), "", {}, elapsed.count()};
+  if (setting.backend == "cuda") {
     setting.device = deviceName();
+    setting.ceilings = measureCeilings();
+  }
   return setting;
 }
 
@@ -43,6 +46,7 @@ measureAll(const Setting& setting,
            const std::vector<NamedProblem>& problems)
 {
   std::vector<Measurement> all;
+  printHeader();
   for (const NamedProblem& problem : problems)
     for (const std::string& second_order : options.second_order) {
       const Parameters parameters = parametersOf(options, second_order);
@@ -53,12 +57,31 @@ measureAll(const Setting& setting,
                             options.threads,
                             options.runs));
       if (!setting.device.empty())
-        all.back().device =
-            measureOnDevice(problem.view(),
-                            parameters,
-                            {options.runs, options.streams, options.energy_seconds});
+        all.back().device = measureOnDevice(
+            problem.view(),
+            parameters,
+            {options.runs, options.streams, options.energy_seconds, setting.ceilings});
       print(all.back());
     }
+  return all;
+}
+
+std::vector<NamedAblation>
+measureAblations(const Options& options, const std::vector<NamedProblem>& problems)
+{
+  std::vector<NamedAblation> all;
+  for (const NamedProblem& named : problems) {
+    const Parameters parameters = parametersOf(options, "auto");
+    Preparation preparation;
+    Problem problem;
+    prepare(named.view(),
+            static_cast<std::size_t>(parameters.max_correspondences),
+            preparation,
+            problem);
+    all.push_back(
+        {named.name, problem.size, measureAblation(problem, parameters, options.runs)});
+    print(all.back());
+  }
   return all;
 }
 
@@ -74,10 +97,14 @@ run(Options options)
       std::printf("%s\n", path.c_str());
     return;
   }
-  printHeader(setting);
-  const std::vector<Measurement> measurements = measureAll(setting, options, problems);
+  printSetting(setting);
+  Figures figures;
+  if (options.ablation)
+    figures.ablations = measureAblations(options, problems);
+  else
+    figures.measurements = measureAll(setting, options, problems);
   if (!options.json.empty())
-    io::writeFile(options.json, toJson(setting, options, measurements));
+    io::writeFile(options.json, toJson(setting, options, figures));
 }
 
 int

@@ -33,6 +33,26 @@ printDevice(const DeviceFigures& figures)
     std::printf("; %.1f mJ a pair\n", *figures.energy_mj);
   else
     std::printf("; energy not measured\n");
+  if (!figures.floor)
+    return;
+  std::printf("    floor %.3f ms: first_order_graph %.3f, ",
+              figures.floor->total(),
+              figures.floor->first_order_graph_ms);
+  if (figures.floor->second_order_graph_ms)
+    std::printf("second_order_graph %.3f, ", *figures.floor->second_order_graph_ms);
+  std::printf("verification %.3f\n", figures.floor->verification_ms);
+}
+
+nlohmann::json
+toJson(const Floor& floor)
+{
+  nlohmann::json json{{"first_order_graph", floor.first_order_graph_ms},
+                      {"second_order_graph", nullptr},
+                      {"verification", floor.verification_ms},
+                      {"total", floor.total()}};
+  if (floor.second_order_graph_ms)
+    json["second_order_graph"] = *floor.second_order_graph_ms;
+  return json;
 }
 
 nlohmann::json
@@ -54,9 +74,12 @@ toJson(const DeviceFigures& figures)
   nlohmann::json json{{"resident_ms", toJson(figures.resident_ms)},
                       {"memory_bytes", figures.memory_bytes},
                       {"throughput", throughput},
-                      {"energy_mj", nullptr}};
+                      {"energy_mj", nullptr},
+                      {"floor_ms", nullptr}};
   if (figures.energy_mj)
     json["energy_mj"] = *figures.energy_mj;
+  if (figures.floor)
+    json["floor_ms"] = toJson(*figures.floor);
   return json;
 }
 
@@ -79,10 +102,26 @@ toJson(const Measurement& m)
   return json;
 }
 
+nlohmann::json
+toJson(const NamedAblation& ablation)
+{
+  nlohmann::json rows = nlohmann::json::array();
+  for (const AblationMeasurement& row : ablation.rows) {
+    nlohmann::json stages;
+    for (std::size_t s = 0; s < ABLATION_STAGES.size(); ++s)
+      stages[ABLATION_STAGES[s].name] = toJson(row.stages[s]);
+    rows.push_back({{"row", row.row.name},
+                    {"inliers", row.inliers},
+                    {"timings_ms", stages},
+                    {"memory_bytes", row.device_bytes}});
+  }
+  return {{"name", ablation.name}, {"correspondences", ablation.size}, {"rows", rows}};
+}
+
 } // namespace
 
 void
-printHeader(const Setting& setting)
+printSetting(const Setting& setting)
 {
   std::printf("%s, %s%s%s, pcl_flashreg %s (%s, %s)\n",
               setting.processor.c_str(),
@@ -92,6 +131,17 @@ printHeader(const Setting& setting)
               version(),
               commit(),
               buildType());
+  if (!setting.device.empty())
+    std::printf("start %.0f ms; ceilings: %.2f T operations a second, "
+                "%.2f TB a second from the cache\n",
+                setting.start_ms,
+                1e-12 * setting.ceilings.operations_per_second,
+                1e-12 * setting.ceilings.cache_bytes_per_second);
+}
+
+void
+printHeader()
+{
   std::printf(
       "%-26s %-7s %7s %8s", "problem (times: median ms)", "graph 2", "N", "inliers");
   for (const Stage& stage : STAGES)
@@ -119,10 +169,16 @@ print(const Measurement& m)
   std::fflush(stdout);
 }
 
+void
+print(const NamedAblation& ablation)
+{
+  std::printf("\n%s, N = %zu\n", ablation.name.c_str(), ablation.size);
+  printAblation(ablation.rows);
+  std::fflush(stdout);
+}
+
 std::string
-toJson(const Setting& setting,
-       const Options& options,
-       const std::vector<Measurement>& measurements)
+toJson(const Setting& setting, const Options& options, const Figures& figures)
 {
   nlohmann::json json{{"processor", setting.processor},
                       {"backend", setting.backend},
@@ -134,11 +190,18 @@ toJson(const Setting& setting,
                       {"build", buildType()},
                       {"compiler", __VERSION__},
                       {"runs", options.runs},
-                      {"measurements", nlohmann::json::array()}};
-  if (!setting.device.empty())
+                      {"measurements", nlohmann::json::array()},
+                      {"ablations", nlohmann::json::array()}};
+  if (!setting.device.empty()) {
     json["device"] = setting.device;
-  for (const Measurement& m : measurements)
+    json["ceilings"] = {
+        {"operations_per_second", setting.ceilings.operations_per_second},
+        {"cache_bytes_per_second", setting.ceilings.cache_bytes_per_second}};
+  }
+  for (const Measurement& m : figures.measurements)
     json["measurements"].push_back(toJson(m));
+  for (const NamedAblation& ablation : figures.ablations)
+    json["ablations"].push_back(toJson(ablation));
   return json.dump(2) + "\n";
 }
 

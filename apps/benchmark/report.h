@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "ablation/ablation.h"
 #include "measurement.h"
 #include "options.h"
 
@@ -16,20 +17,40 @@ struct Setting {
   std::string processor, backend;
   /** \brief Empty without one. */
   std::string device;
+  /** \brief The device's. */
+  Ceilings ceilings;
   /** \brief Making the first estimator of the process, ms: on a device, its context. */
   double start_ms = 0;
 };
 
+/** \brief The ablation on one problem. */
+struct NamedAblation {
+  std::string name;
+  std::size_t size = 0;
+  std::vector<AblationMeasurement> rows;
+};
+
+/** \brief What was measured; one of these is empty. */
+struct Figures {
+  std::vector<Measurement> measurements;
+  std::vector<NamedAblation> ablations;
+};
+
 void
-printHeader(const Setting& setting);
+printSetting(const Setting& setting);
+
+/** \brief The line above the measurements. */
+void
+printHeader();
 
 void
 print(const Measurement& measurement);
 
+void
+print(const NamedAblation& ablation);
+
 /** \brief All figures as JSON. */
 std::string
-toJson(const Setting& setting,
-       const Options& options,
-       const std::vector<Measurement>& measurements);
+toJson(const Setting& setting, const Options& options, const Figures& figures);
 
 } // namespace pcl_flashreg::benchmark

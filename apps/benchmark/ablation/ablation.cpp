@@ -10,8 +10,6 @@
 namespace pcl_flashreg::benchmark {
 namespace {
 
-constexpr int WARM_UP_RUNS = 3;
-
 AblationMeasurement
 measureRow(const AblationRow& row,
            const Problem& problem,
@@ -30,14 +28,14 @@ measureRow(const AblationRow& row,
     measurement.inliers = estimate.inliers.size();
     // Stages follow each other without a gap.
     for (std::size_t s = 0; s + 1 < ABLATION_STAGES.size(); ++s)
-      t.total += t.*ABLATION_STAGES[s].second;
+      t.total += t.*ABLATION_STAGES[s].milliseconds;
     if (i >= 0)
       timings.push_back(t);
   }
   for (std::size_t s = 0; s < ABLATION_STAGES.size(); ++s) {
     std::vector<double> times;
     for (const StageTimings& t : timings)
-      times.push_back(t.*ABLATION_STAGES[s].second);
+      times.push_back(t.*ABLATION_STAGES[s].milliseconds);
     measurement.stages[s] = spreadOf(times);
   }
   measurement.device_bytes = stages.deviceBytes();
@@ -72,7 +70,7 @@ printAblation(const std::vector<AblationMeasurement>& measurements)
   for (const AblationMeasurement& m : measurements) {
     std::printf("%-28s", m.row.name.c_str());
     for (std::size_t s = 0; s < m.stages.size(); ++s)
-      if (ABLATION_STAGES[s].second == &StageTimings::pivots &&
+      if (ABLATION_STAGES[s].milliseconds == &StageTimings::pivots &&
           m.row.pivotsInSecondOrder())
         std::printf(" %8s", "--");
       else

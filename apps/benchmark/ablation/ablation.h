@@ -3,11 +3,12 @@
 
 #pragma once
 
-#include "../measurement.h"
+#include "../spread.h"
 #include "ablation_row.h"
 #include "problem.h"
 
 #include <pcl_flashreg/parameters.h>
+#include <pcl_flashreg/stage_timings.h>
 
 #include <array>
 #include <vector>
@@ -15,7 +16,7 @@
 namespace pcl_flashreg::benchmark {
 
 /** \brief The stages of a row in order, the total last. */
-constexpr std::array<StageField, 8> ABLATION_STAGES = {{
+constexpr std::array<Stage, 8> ABLATION_STAGES = {{
     {"first_order_graph", &StageTimings::first_order_graph},
     {"second_order_graph", &StageTimings::second_order_graph},
     {"pivots", &StageTimings::pivots},

@@ -7,6 +7,7 @@
 #include "energy_meter.h"
 #include "error.h"
 #include "preparation.h"
+#include "trace.h"
 
 #include <algorithm>
 #include <chrono>
@@ -41,6 +42,9 @@ currentDevice()
   return device;
 }
 
+/** \brief Beyond it, going through all pairs on the host takes longer than measuring. */
+constexpr std::size_t LARGEST_COUNTED = 20000;
+
 /** \brief Runs the pipeline on a problem whose points are on the device. */
 class ResidentCall {
 public:
@@ -59,12 +63,23 @@ public:
     backend_ = cuda::makeBackend(options);
   }
 
-  void
-  operator()()
+  PoseEstimate
+  operator()(Trace* trace = nullptr)
   {
     StageTimings timings;
     StageClock clock(timings);
-    backend_->run(problem_, parameters_, std::nullopt, false, clock, nullptr);
+    return backend_->run(problem_, parameters_, std::nullopt, false, clock, trace);
+  }
+
+  std::optional<Floor>
+  floor(const Ceilings& ceilings)
+  {
+    if (problem_.size > LARGEST_COUNTED)
+      return std::nullopt;
+    Trace trace;
+    const PoseEstimate estimate = (*this)(&trace);
+    return floorOf(
+        problem_, trace, estimate.second_order == SecondOrder::Exact, ceilings);
   }
 
 private:
@@ -151,6 +166,7 @@ measureOnDevice(const CorrespondenceView<double>& correspondences,
     figures.memory_bytes = free - std::min(free, freeBytes());
     if (effort.energy_seconds > 0)
       figures.energy_mj = energyOf(call, effort.energy_seconds);
+    figures.floor = call.floor(effort.ceilings);
   }
   for (const unsigned streams : effort.streams)
     figures.throughput.push_back(

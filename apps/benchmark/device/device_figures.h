@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../spread.h"
+#include "ceilings.h"
 
 #include <pcl_flashreg/estimator.h>
 
@@ -33,6 +34,8 @@ struct DeviceFigures {
   /** \brief Energy of the whole board a call, correspondences resident, idle power not
    * subtracted. Nothing where NVML can't tell. */
   std::optional<double> energy_mj;
+  /** \brief Nothing for problems too large to count their work on the host. */
+  std::optional<Floor> floor;
 };
 
 /** \brief How much is measured. */
@@ -41,6 +44,7 @@ struct DeviceEffort {
   std::vector<unsigned> streams;
   /** \brief 0: energy is not measured. */
   double energy_seconds = 0;
+  Ceilings ceilings;
 };
 
 /** \throws BackendError */

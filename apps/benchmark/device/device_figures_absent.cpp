@@ -31,4 +31,10 @@ deviceName()
   fail();
 }
 
+Ceilings
+measureCeilings()
+{
+  fail();
+}
+
 } // namespace pcl_flashreg::benchmark
