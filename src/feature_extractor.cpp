@@ -5,54 +5,19 @@
 
 #include "cpu/features/feature_stages.h"
 #include "feature_pipeline.h"
+#include "points.h"
+#include "require.h"
 
 #include <cmath>
-#include <limits>
-#include <sstream>
-#include <stdexcept>
 
 namespace pcl_flashreg {
 namespace {
-
-template <typename Value>
-void
-require(bool fits, const char* name, Value value, const char* range)
-{
-  if (fits)
-    return;
-  std::ostringstream message;
-  message << name << " = " << value << " is out of range: " << range;
-  throw std::invalid_argument(message.str());
-}
 
 /** \brief A length that single precision can square. */
 bool
 isLength(double value)
 {
   return value > 1e-18 && value < 1e18;
-}
-
-void
-check(const PointView& points)
-{
-  constexpr auto MOST =
-      static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-  require(points.size <= MOST, "points.size", points.size, "it must fit 31 bits");
-  require(points.index_count <= MOST,
-          "points.index_count",
-          points.index_count,
-          "it must fit 31 bits");
-  require(points.size == 0 || (points.data && points.stride >= 3),
-          "points.stride",
-          points.stride,
-          "points need data and a stride >= 3");
-  for (std::size_t i = 0; points.indices && i < points.index_count; ++i) {
-    const std::int32_t index = points.indices[i];
-    if (index < 0 || static_cast<std::size_t>(index) >= points.size)
-      throw std::invalid_argument("index " + std::to_string(index) +
-                                  " is not one of a cloud of " +
-                                  std::to_string(points.size) + " points");
-  }
 }
 
 } // namespace

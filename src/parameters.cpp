@@ -3,37 +3,28 @@
 
 #include <pcl_flashreg/parameters.h>
 
+#include "require.h"
+
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace pcl_flashreg {
 namespace {
 
-template <typename Value>
-[[noreturn]] void
-reject(const char* name, Value value, const std::string& range)
-{
-  std::ostringstream message;
-  message << name << " = " << value << " is out of range: " << range;
-  throw std::invalid_argument(message.str());
-}
-
 void
 checkPositive(const char* name, double value)
 {
-  if (!(value > 0) || !std::isfinite(value))
-    reject(name, value, "it must be a finite length > 0");
+  require(
+      value > 0 && std::isfinite(value), name, value, "it must be a finite length > 0");
 }
 
 void
 checkRange(const char* name, int value, int least, int most)
 {
-  if (value < least || value > most)
-    reject(name,
-           value,
-           "it must lie in [" + std::to_string(least) + ", " + std::to_string(most) +
-               "]");
+  require(least <= value && value <= most,
+          name,
+          value,
+          "it must lie in [" + std::to_string(least) + ", " + std::to_string(most) +
+              "]");
 }
 
 } // namespace
@@ -54,8 +45,10 @@ void
 Parameters::validate() const
 {
   checkPositive("length_tolerance", length_tolerance);
-  if (!(min_length_sum >= 0) || !std::isfinite(min_length_sum))
-    reject("min_length_sum", min_length_sum, "it must be a finite length >= 0");
+  require(min_length_sum >= 0 && std::isfinite(min_length_sum),
+          "min_length_sum",
+          min_length_sum,
+          "it must be a finite length >= 0");
   checkPositive("inlier_distance", inlier_distance);
   checkRange("max_correspondences", max_correspondences, 3, 200000);
   checkRange("pivots", pivots, 1, 1000000);
@@ -66,8 +59,10 @@ Parameters::validate() const
   checkRange("score_metric", static_cast<int>(score_metric), 0, 2);
   checkRange("refinement_iterations", refinement_iterations, 0, 1000);
   checkRange("max_hypotheses", max_hypotheses, 1, 64);
-  if (!(min_confidence >= 0 && min_confidence <= 1))
-    reject("min_confidence", min_confidence, "it must lie in [0, 1]");
+  require(min_confidence >= 0 && min_confidence <= 1,
+          "min_confidence",
+          min_confidence,
+          "it must lie in [0, 1]");
 }
 
 } // namespace pcl_flashreg

@@ -5,27 +5,13 @@
 
 #include <pcl_flashreg/export.h>
 #include <pcl_flashreg/feature_matching.h>
+#include <pcl_flashreg/point_view.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace pcl_flashreg {
-
-/** \brief Points as rows of floats that begin with x, y, z; nothing is copied or owned. */
-struct PointView {
-  /** \brief First coordinate of the first point. */
-  const float* data = nullptr;
-  /** \brief Number of points. */
-  std::size_t size = 0;
-  /** \brief Floats from one point to the next, >= 3. */
-  std::size_t stride = 3;
-  /** \brief Which of the points to use; null for all of them. */
-  const std::int32_t* indices = nullptr;
-  /** \brief Number of indices. */
-  std::size_t index_count = 0;
-};
 
 /** \brief How a cloud is described; lengths in its unit. */
 struct PCL_FLASHREG_EXPORT FeatureParameters {

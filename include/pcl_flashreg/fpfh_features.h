@@ -50,15 +50,7 @@ computeFpfh(const pcl::PointCloud<PointT>& cloud,
             unsigned num_threads = 0,
             FpfhTimings* timings = nullptr);
 
-/** \brief A resolution for a cloud that nobody gave one for, in the unit of the cloud.
- *
- * The voxel size at which the middle of the cloud (what is within the middle 80 % on
- * every axis: points far off don't matter) occupies 2500 voxels, or a quarter as many
- * as it has distinct points where that is fewer; rounded to one of 1, 1.25, 1.6, 2,
- * 2.5, 3.15, 4, 5, 6.3, 8 times a power of ten, so that clouds which are nearly alike
- * mostly get the same. That gives about 5 cm for a room, 2.5 mm for a scan of a 15 cm
- * object, 15 cm to 50 cm for a lidar sweep.
- *
+/** \brief estimateResolution() of resolution.h for a cloud of PCL's.
  * \param[in] cloud any point type with x, y, z
  * \param[in] indices points of the cloud to use; empty for all of them
  * \throws std::invalid_argument if there are fewer than two distinct finite points; if
@@ -69,13 +61,7 @@ double
 estimateResolution(const pcl::PointCloud<PointT>& cloud,
                    const pcl::Indices& indices = {});
 
-/** \brief The voxel size that a cloud was downsampled with, from its points alone; not
- * rounded, in the unit of the cloud.
- *
- * The voxel size at which the middle of the cloud (see estimateResolution()) occupies
- * 0.65 times as many voxels as it has points, which is right to within about a quarter
- * for clouds from pcl::VoxelGrid.
- *
+/** \brief estimateVoxelSize() of resolution.h for a cloud of PCL's.
  * \param[in] cloud any point type with x, y, z
  * \param[in] indices points of the cloud to use; empty for all of them
  * \throws std::invalid_argument as estimateResolution()

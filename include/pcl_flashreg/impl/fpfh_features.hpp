@@ -5,15 +5,10 @@
 
 #include <pcl_flashreg/feature_extractor.h>
 #include <pcl_flashreg/fpfh_features.h>
-#include <pcl_flashreg/impl/voxel_count.hpp>
+#include <pcl_flashreg/resolution.h>
 
-#include <pcl/common/point_tests.h>
-
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace pcl_flashreg {
@@ -23,40 +18,17 @@ using PointsXYZ = pcl::PointCloud<pcl::PointXYZ>;
 using Normals = pcl::PointCloud<pcl::Normal>;
 using Fpfh33 = pcl::PointCloud<pcl::FPFHSignature33>;
 
-/** \brief The finite ones of the points that the indices name (all, if empty). */
-template <typename PointT>
-PointsXYZ::Ptr
-finitePoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
-{
-  PointsXYZ::Ptr points(new PointsXYZ);
-  points->header = cloud.header;
-  points->sensor_origin_ = cloud.sensor_origin_;
-  points->sensor_orientation_ = cloud.sensor_orientation_;
-  const auto append = [&points](const PointT& point) {
-    if (pcl::isXYZFinite(point))
-      points->push_back(pcl::PointXYZ(point.x, point.y, point.z));
-  };
-  if (indices.empty())
-    for (const PointT& point : cloud)
-      append(point);
-  for (const auto index : indices) {
-    if (static_cast<std::size_t>(index) >= cloud.size())
-      throw std::invalid_argument("index " + std::to_string(index) +
-                                  " is not one of a cloud of " +
-                                  std::to_string(cloud.size()) + " points");
-    append(cloud[index]);
-  }
-  return points;
-}
-
-/** \brief The points as rows of floats: in place, or, where a point type keeps its
- * coordinates apart, a copy. */
+/** \brief The points that the indices name (all, if empty) as rows of floats: in place, or,
+ * where a point type keeps its coordinates apart, a copy. */
 template <typename PointT>
 class FloatRows {
 public:
-  explicit FloatRows(const pcl::PointCloud<PointT>& cloud)
+  FloatRows(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
+      : indices_(indices.begin(), indices.end())
   {
     view_.size = cloud.size();
+    view_.indices = indices_.empty() ? nullptr : indices_.data();
+    view_.index_count = indices_.size();
     if (cloud.empty())
       return;
     const PointT& first = cloud[0];
@@ -82,6 +54,7 @@ public:
 private:
   PointView view_;
   std::vector<float> copy_;
+  std::vector<std::int32_t> indices_;
 };
 
 inline FpfhCloud
@@ -119,19 +92,13 @@ computeFpfh(const pcl::PointCloud<PointT>& cloud,
             unsigned num_threads,
             FpfhTimings* timings)
 {
-  const detail::FloatRows<PointT> rows(cloud);
-  const std::vector<std::int32_t> selected(indices.begin(), indices.end());
-  PointView view = rows.view();
-  if (!indices.empty()) {
-    view.indices = selected.data();
-    view.index_count = selected.size();
-  }
+  const detail::FloatRows<PointT> rows(cloud, indices);
   FeatureParameters parameters = FeatureParameters::fromResolution(resolution);
   for (int axis = 0; axis < 3; ++axis)
     parameters.viewpoint[axis] = cloud.sensor_origin_[axis];
   FeatureTimings spent;
   const FpfhCloud result = detail::toFpfhCloud(
-      FeatureExtractor(num_threads).describe(view, parameters, &spent));
+      FeatureExtractor(num_threads).describe(rows.view(), parameters, &spent));
   result.points->header = cloud.header;
   result.points->sensor_origin_ = cloud.sensor_origin_;
   result.points->sensor_orientation_ = cloud.sensor_orientation_;
@@ -147,22 +114,14 @@ template <typename PointT>
 double
 estimateResolution(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
 {
-  const detail::VoxelCount voxels(*detail::finitePoints(cloud, indices));
-  const double quarter = 0.25 * static_cast<double>(voxels.distinctPoints());
-  return detail::roundToPreferredNumber(
-      voxels.sizeFor(std::max(2.0, std::min(2500.0, quarter))));
+  return estimateResolution(detail::FloatRows<PointT>(cloud, indices).view());
 }
 
 template <typename PointT>
 double
 estimateVoxelSize(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
 {
-  // Centroids of pcl::VoxelGrid on surfaces occupy this share of the voxels of a grid
-  // of the same size that is shifted against it.
-  constexpr double occupied_share = 0.65;
-  const detail::VoxelCount voxels(*detail::finitePoints(cloud, indices));
-  const auto points = static_cast<double>(voxels.distinctPoints());
-  return voxels.sizeFor(std::max(2.0, occupied_share * points));
+  return estimateVoxelSize(detail::FloatRows<PointT>(cloud, indices).view());
 }
 
 } // namespace pcl_flashreg

@@ -6,6 +6,7 @@
 #include <pcl_flashreg/impl/stopwatch.hpp>
 #include <pcl_flashreg/pcl_front_end.h>
 
+#include <pcl/common/point_tests.h>
 #include <pcl/features/fpfh_omp.h>
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/filters/voxel_grid.h>
@@ -16,10 +17,37 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace pcl_flashreg {
 namespace detail {
+
+/** \brief The finite ones of the points that the indices name (all, if empty). */
+template <typename PointT>
+PointsXYZ::Ptr
+finitePoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
+{
+  PointsXYZ::Ptr points(new PointsXYZ);
+  points->header = cloud.header;
+  points->sensor_origin_ = cloud.sensor_origin_;
+  points->sensor_orientation_ = cloud.sensor_orientation_;
+  const auto append = [&points](const PointT& point) {
+    if (pcl::isXYZFinite(point))
+      points->push_back(pcl::PointXYZ(point.x, point.y, point.z));
+  };
+  if (indices.empty())
+    for (const PointT& point : cloud)
+      append(point);
+  for (const auto index : indices) {
+    if (static_cast<std::size_t>(index) >= cloud.size())
+      throw std::invalid_argument("index " + std::to_string(index) +
+                                  " is not one of a cloud of " +
+                                  std::to_string(cloud.size()) + " points");
+    append(cloud[index]);
+  }
+  return points;
+}
 
 /** \brief pcl::VoxelGrid numbers voxels with 32 bits, and returns the cloud unfiltered,
  * with a warning only, where these don't suffice; so that is checked beforehand.

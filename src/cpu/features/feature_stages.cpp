@@ -3,6 +3,8 @@
 
 #include "cpu/features/feature_stages.h"
 
+#include "points.h"
+
 namespace pcl_flashreg {
 namespace cpu {
 

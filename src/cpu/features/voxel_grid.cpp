@@ -3,6 +3,8 @@
 
 #include "cpu/features/voxel_grid.h"
 
+#include "points.h"
+
 namespace pcl_flashreg {
 namespace cpu {
 namespace {

@@ -7,7 +7,7 @@
 #include "cpu/features/radix_sort.h"
 #include "cpu/thread_pool.h"
 
-#include <pcl_flashreg/feature_extractor.h>
+#include <pcl_flashreg/point_view.h>
 
 #include <cstdint>
 #include <vector>
@@ -73,27 +73,6 @@ private:
   VoxelTable table_;
   std::vector<KeyedIndex> order_;
 };
-
-/** \brief A point of a view, by its position among those to use. */
-inline const float*
-pointOf(const PointView& points, std::size_t i)
-{
-  const auto at = points.indices ? static_cast<std::size_t>(points.indices[i]) : i;
-  return points.data + at * points.stride;
-}
-
-/** \brief Number of points of a view to use. */
-inline std::size_t
-countOf(const PointView& points)
-{
-  return points.indices ? points.index_count : points.size;
-}
-
-inline bool
-isFinite(const float* point)
-{
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
-}
 
 } // namespace cpu
 } // namespace pcl_flashreg

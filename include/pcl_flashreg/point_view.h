@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pcl_flashreg {
+
+/** \brief Points as rows of floats that begin with x, y, z; nothing is copied or owned. */
+struct PointView {
+  /** \brief First coordinate of the first point. */
+  const float* data = nullptr;
+  /** \brief Number of points. */
+  std::size_t size = 0;
+  /** \brief Floats from one point to the next, >= 3. */
+  std::size_t stride = 3;
+  /** \brief Which of the points to use; null for all of them. */
+  const std::int32_t* indices = nullptr;
+  /** \brief Number of indices. */
+  std::size_t index_count = 0;
+};
+
+} // namespace pcl_flashreg
