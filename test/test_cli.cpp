@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace pcl_flashreg::cli {
 namespace {
@@ -27,7 +28,7 @@ TEST_F(CliTest, findsThePoseAndSaysSo)
 TEST_F(CliTest, jsonHasItsKeys)
 {
   writeRoom("source.pcd", "target.pcd");
-  const ProgramRun run = align("source.pcd target.pcd --json - --leaf 0.1");
+  const ProgramRun run = align("source.pcd target.pcd --json -");
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = run.json();
   expectTruth(poseOf(json));
@@ -46,15 +47,85 @@ TEST_F(CliTest, jsonHasItsKeys)
   EXPECT_EQ(json.at("information").size(), 6u);
   const auto& timings = json.at("timings_ms");
   double sum = 0;
-  for (const char* stage : {"voxel_grid", "normals", "features", "matching"}) {
-    EXPECT_GT(timings.at(stage).get<double>(), 0) << stage;
-    sum += timings.at(stage).get<double>();
+  for (const char* step : {"reading",
+                           "setup",
+                           "resolution",
+                           "voxel_grid",
+                           "normals",
+                           "features",
+                           "matching",
+                           "estimation",
+                           "copying"}) {
+    EXPECT_GT(timings.at(step).get<double>(), 0) << step;
+    sum += timings.at(step).get<double>();
   }
+  EXPECT_NEAR(timings.at("total").get<double>(), sum, 1e-6 * sum);
+  double estimation = 0;
   for (const Stage& stage : STAGES) {
     EXPECT_GE(timings.at(stage.name).get<double>(), 0) << stage.name;
-    sum += timings.at(stage.name).get<double>();
+    estimation += timings.at(stage.name).get<double>();
   }
-  EXPECT_GE(timings.at("total").get<double>(), sum);
+  EXPECT_LE(estimation, timings.at("estimation").get<double>() * (1 + 1e-9));
+}
+
+/** \brief Numbers in a text, in their order. */
+std::vector<double>
+numbersIn(const std::string& text)
+{
+  std::vector<double> numbers;
+  for (const char* at = text.c_str(); *at != 0;) {
+    char* end = nullptr;
+    const double number = std::strtod(at, &end);
+    if (end == at) {
+      ++at;
+      continue;
+    }
+    numbers.push_back(number);
+    at = end;
+  }
+  return numbers;
+}
+
+TEST_F(CliTest, stepsAddUpToTheTotal)
+{
+  writeRoom("source.pcd", "target.pcd");
+  for (const std::string options : {"", " --leaf 0.1 --fast"}) {
+    const ProgramRun run = align("source.pcd target.pcd" + options);
+    const std::size_t time = run.out.find("time  "), end = run.out.find('\n', time);
+    ASSERT_NE(end, std::string::npos) << run.out;
+    const double total = numbersIn(run.out.substr(time, end - time)).at(0);
+    const std::string listing = run.out.substr(end);
+    const std::vector<double> steps = numbersIn(listing);
+    EXPECT_GE(steps.size(), 5u);
+    // Steps of less than 0.05 ms are left out, the others are rounded.
+    constexpr double STEP_COUNT = 10;
+    EXPECT_NEAR(std::accumulate(steps.begin(), steps.end(), 0.0),
+                total,
+                (STEP_COUNT + 1) * 0.05 + 1e-9)
+        << run.out;
+    EXPECT_NE(listing.find("matching"), std::string::npos) << run.out;
+    EXPECT_EQ(listing.find("cloud check") == std::string::npos, !options.empty())
+        << run.out;
+  }
+}
+
+TEST_F(CliTest, asksForTheUnitWhereTheCloudsDifferALot)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const auto run = [&](double scale) {
+    io::Cloud scaled = io::readCloud(path("target.pcd"));
+    RigidTransform scaling;
+    scaling.rotation *= scale;
+    io::transformCloud(scaled, scaling);
+    io::writeCloud(path("scaled.pcd"), scaled);
+    return align("source.pcd scaled.pcd");
+  };
+  for (const double scale : {0.001, 10.0}) {
+    const ProgramRun result = run(scale);
+    EXPECT_NE(result.status, 0);
+    EXPECT_NE(result.err.find("in the same unit?"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(run(1).err, "");
 }
 
 TEST_F(CliTest, describesWithPclToo)

@@ -80,8 +80,10 @@ ExitStatus
 run(const Options& options)
 {
   const Progress progress(options.quiet);
+  StepClock clock;
   const Inputs inputs = readInputs(options, progress);
-  const Outcome outcome = alignInputs(options, inputs, progress);
+  clock.finish(&Times::reading);
+  const Outcome outcome = alignInputs(options, inputs, progress, clock);
   if (!options.quiet && options.json != "-")
     std::cout << formatReport(options, outcome) << std::flush;
   writeOutputs(options, inputs, outcome, progress);

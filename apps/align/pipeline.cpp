@@ -10,14 +10,12 @@
 
 #include <pcl_flashreg/estimator.h>
 #include <pcl_flashreg/impl/cloud_buffer.hpp>
-#include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <sstream>
 
 namespace pcl_flashreg::align {
 namespace {
 
-using detail::Stopwatch;
 using io::InputError;
 
 std::string
@@ -56,34 +54,41 @@ struct Matched {
   std::optional<CloudPairView<double>> clouds;
 };
 
-template <typename Estimate>
-double
-largerEstimate(const Side& source, const Side& target, Estimate estimate)
+using Estimate = double (*)(const pcl::PointCloud<pcl::PointXYZ>& points,
+                            const pcl::Indices& indices);
+
+struct Resolutions {
+  double source, target;
+
+  double
+  coarser() const
+  {
+    return std::max(source, target);
+  }
+};
+
+Resolutions
+estimateBoth(const Side& source, const Side& target, Estimate estimate)
 {
-  double larger = 0;
-  for (const Side* side : {&source, &target}) {
+  const auto resolutionOf = [&](const Side& side) {
     try {
-      larger = std::max(larger, estimate(*side->shifted.points));
+      return estimate(*side.shifted.points, {});
     }
     catch (const std::invalid_argument& error) {
-      throw InputError(side->input.path + ": " + error.what());
+      throw InputError(side.input.path + ": " + error.what());
     }
-  }
-  return larger;
+  };
+  return {resolutionOf(source), resolutionOf(target)};
 }
 
-double
-resolutionOfClouds(const Side& source, const Side& target)
+void
+askForTheUnit(const Resolutions& estimated, const Progress& progress)
 {
-  return largerEstimate(
-      source, target, [](const auto& points) { return estimateResolution(points); });
-}
-
-double
-resolutionOfKeypoints(const Side& source, const Side& target)
-{
-  return largerEstimate(
-      source, target, [](const auto& points) { return estimateVoxelSize(points); });
+  constexpr double FAR_APART = 5;
+  if (estimated.coarser() > FAR_APART * std::min(estimated.source, estimated.target))
+    progress.note("the source by itself would be seen at a resolution of " +
+                  shortNumber(estimated.source) + ", the target at " +
+                  shortNumber(estimated.target) + ": are both in the same unit?");
 }
 
 /** \brief Complains about a leaf that was given, and says which would suit. */
@@ -101,7 +106,10 @@ struct Keypoints {
 };
 
 Keypoints
-describe(const Side& side, const Options& options, Outcome& outcome)
+describe(const Side& side,
+         const Options& options,
+         const Outcome& outcome,
+         StepClock& clock)
 {
   Keypoints keypoints;
   FpfhTimings timings;
@@ -122,23 +130,26 @@ describe(const Side& side, const Options& options, Outcome& outcome)
   const auto& points = *keypoints.described.points;
   constexpr std::size_t needed = 12;
   if (points.size() < needed) {
-    const std::string problem = "leaves only " + std::to_string(points.size()) +
-                                " points that can be described, while a trusted pose "
-                                "takes " +
+    const std::string left = points.empty()
+                                 ? "no point"
+                                 : "only " + std::to_string(points.size()) + " points";
+    const std::string problem = "leaves " + left +
+                                " that can be described, while a trusted pose takes " +
                                 std::to_string(needed);
     if (options.leaf)
       failLeaf(side, *options.leaf, problem);
     throw InputError(side.input.path + ": the voxel grid of " +
                      shortNumber(*outcome.resolution) + " " + problem +
-                     " (--leaf sets another)");
+                     " (--leaf sets another; are both clouds in the same unit?)");
   }
   keypoints.xyz.resize(3, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
     keypoints.xyz.col(static_cast<Eigen::Index>(i)) =
         points[i].getVector3fMap().cast<double>() + side.shifted.shift;
-  outcome.features_ms.voxel_grid += timings.voxel_grid;
-  outcome.features_ms.normals += timings.normals;
-  outcome.features_ms.features += timings.features;
+  clock.book(&Times::voxel_grid, timings.voxel_grid);
+  clock.book(&Times::normals, timings.normals);
+  clock.book(&Times::features, timings.features);
+  clock.finish(&Times::copying);
   return keypoints;
 }
 
@@ -196,33 +207,41 @@ void
 matchClouds(const Options& options,
             const Inputs& inputs,
             const Progress& progress,
+            StepClock& clock,
             Outcome& outcome,
             Matched& matched)
 {
   const Side source(*inputs.source);
   const Side target(*inputs.target);
+  clock.finish(&Times::copying);
   const auto match = [&](const auto&... points_and_features) {
     progress.say("matching");
-    const Stopwatch matching;
     matched.correspondences = matchPoints(
         points_and_features..., options.neighbors, options.mutual, options.threads);
-    outcome.matching_ms = matching.milliseconds();
+    clock.finish(&Times::matching);
   };
+  std::optional<Resolutions> estimated;
+  if (!options.leaf)
+    estimated =
+        estimateBoth(source,
+                     target,
+                     inputs.source_features ? &estimateVoxelSize<pcl::PointXYZ>
+                                            : &estimateResolution<pcl::PointXYZ>);
+  outcome.resolution = estimated ? estimated->coarser() : *options.leaf;
+  clock.finish(&Times::resolution);
   if (inputs.source_features) {
-    outcome.resolution =
-        options.leaf ? *options.leaf : resolutionOfKeypoints(source, target);
     match(source.input.xyz,
           viewOf(*inputs.source_features),
           target.input.xyz,
           viewOf(*inputs.target_features));
     return;
   }
-  outcome.resolution =
-      options.leaf ? *options.leaf : resolutionOfClouds(source, target);
   progress.say("describing the source, voxels of " + shortNumber(*outcome.resolution));
-  const Keypoints from = describe(source, options, outcome);
+  const Keypoints from = describe(source, options, outcome, clock);
   progress.say("describing the target");
-  const Keypoints to = describe(target, options, outcome);
+  const Keypoints to = describe(target, options, outcome, clock);
+  if (estimated)
+    askForTheUnit(*estimated, progress);
   warnOfLongMatching(from, to, progress);
   match(from.xyz,
         viewOf(*from.described.features),
@@ -236,6 +255,7 @@ matchClouds(const Options& options,
                  *outcome.resolution,
                  options.viewpoints_known,
                  matched);
+  clock.finish(&Times::copying);
 }
 
 /** \brief For given correspondences: --leaf, or the voxel size of their own points, of
@@ -257,16 +277,22 @@ resolutionFor(const Options& options, const io::Correspondences& given)
 } // namespace
 
 Outcome
-alignInputs(const Options& options, const Inputs& inputs, const Progress& progress)
+alignInputs(const Options& options,
+            const Inputs& inputs,
+            const Progress& progress,
+            StepClock& clock)
 {
   Estimator estimator(options.backend, options.threads);
+  clock.finish(&Times::setup);
   Outcome outcome;
-  if (inputs.correspondences)
-    outcome.resolution = resolutionFor(options, *inputs.correspondences);
-  const Stopwatch total;
   Matched matched;
-  if (!inputs.correspondences)
-    matchClouds(options, inputs, progress, outcome, matched);
+  if (inputs.correspondences) {
+    outcome.resolution = resolutionFor(options, *inputs.correspondences);
+    clock.finish(&Times::resolution);
+  }
+  else {
+    matchClouds(options, inputs, progress, clock, outcome, matched);
+  }
   const std::vector<float>& ranks = matched.correspondences.ranks;
   const io::Correspondences& given =
       inputs.correspondences ? *inputs.correspondences : matched.correspondences.points;
@@ -282,7 +308,11 @@ alignInputs(const Options& options, const Inputs& inputs, const Progress& progre
                                       outcome.parameters,
                                       inputs.guess,
                                       matched.clouds ? &*matched.clouds : nullptr);
-  outcome.total_ms = total.milliseconds();
+  const StageTimings& stages = outcome.result.timings_ms;
+  clock.book(&Times::pose, stages.total - stages.cloud_check);
+  clock.book(&Times::cloud_check, stages.cloud_check);
+  clock.finish(&Times::copying);
+  outcome.times = clock.times();
   return outcome;
 }
 

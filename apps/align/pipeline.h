@@ -4,8 +4,8 @@
 #pragma once
 
 #include "inputs.h"
+#include "times.h"
 
-#include <pcl_flashreg/fpfh_features.h>
 #include <pcl_flashreg/result.h>
 
 #include <optional>
@@ -20,18 +20,18 @@ struct Outcome {
   /** \brief Voxel size; nothing if there is no --leaf and the correspondences are too
    * few to estimate it. */
   std::optional<double> resolution;
-  /** \brief Milliseconds. */
-  FpfhTimings features_ms;
-  double matching_ms = 0;
-  /** \brief Everything from clouds or correspondences in memory to the pose. */
-  double total_ms = 0;
+  Times times;
 };
 
-/** \throws UsageError if --leaf does not suit the clouds
+/** \param[in,out] clock started before anything was read
+ * \throws UsageError if --leaf does not suit the clouds
  * \throws io::InputError if the clouds give nothing to work with
  * \throws BackendError, std::bad_alloc if the machine fails
  */
 Outcome
-alignInputs(const Options& options, const Inputs& inputs, const Progress& progress);
+alignInputs(const Options& options,
+            const Inputs& inputs,
+            const Progress& progress,
+            StepClock& clock);
 
 } // namespace pcl_flashreg::align

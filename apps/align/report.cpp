@@ -59,18 +59,28 @@ formatCounts(const Outcome& outcome)
   return text;
 }
 
+/** \brief The total, and under it the steps that it is made of, in lines of bearable
+ * length. */
 std::string
 formatTimes(const Outcome& outcome)
 {
-  std::string text = rounded(outcome.total_ms, 1) + " ms";
-  const FpfhTimings& features = outcome.features_ms;
-  if (outcome.matching_ms > 0)
-    text += ": voxel grid " + rounded(features.voxel_grid, 1) + ", normals " +
-            rounded(features.normals, 1) + ", features " +
-            rounded(features.features, 1) + ", matching " +
-            rounded(outcome.matching_ms, 1) + ", pose " +
-            rounded(outcome.result.timings_ms.total, 1);
-  return text + " (" + outcome.result.backend + ")";
+  constexpr std::size_t WIDTH = 88;
+  const std::string margin(12, ' ');
+  std::string text = "time        " + rounded(outcome.times.total, 1) + " ms (" +
+                     outcome.result.backend + ")\n";
+  std::string line = margin;
+  for (const Step& step : STEPS) {
+    const std::string time = rounded(outcome.times.*step.milliseconds, 1);
+    if (time == "0.0")
+      continue;
+    const std::string item = step.name + (' ' + time);
+    if (line.size() + 2 + item.size() > WIDTH) {
+      text += line + ",\n";
+      line = margin;
+    }
+    line += (line == margin ? "" : ", ") + item;
+  }
+  return text + line + '\n';
 }
 
 } // namespace
@@ -104,10 +114,10 @@ formatReport(const Options& options, const Outcome& outcome)
   if (outcome.resolution) {
     std::ostringstream resolution;
     resolution << *outcome.resolution;
-    text +=
-        "resolution  " + resolution.str() + (options.leaf ? "\n" : " (estimated)\n");
+    text += "resolution  " + resolution.str() +
+            (options.leaf ? "\n" : " (estimated; --leaf sets another)\n");
   }
-  return text + "time        " + formatTimes(outcome) + '\n';
+  return text + formatTimes(outcome);
 }
 
 } // namespace pcl_flashreg::align

@@ -19,7 +19,8 @@ std::string
 formatVerdict(const Outcome& outcome);
 
 /** \brief The outcome for a program, one JSON object. Keys are only ever added. Numbers
- * that are not finite (distinctness without a rival) are null. */
+ * that are not finite (distinctness without a rival) are null. In timings_ms "estimation" is
+ * the sum of the stages before it; without these, the entries add up to "total". */
 std::string
 formatJson(const Options& options, const Outcome& outcome);
 

@@ -45,14 +45,19 @@ Json
 timingsOf(const Outcome& outcome)
 {
   const StageTimings& stages = outcome.result.timings_ms;
-  Json timings = {{"voxel_grid", outcome.features_ms.voxel_grid},
-                  {"normals", outcome.features_ms.normals},
-                  {"features", outcome.features_ms.features},
-                  {"matching", outcome.matching_ms}};
+  const Times& times = outcome.times;
+  Json timings = {{"reading", times.reading},
+                  {"setup", times.setup},
+                  {"resolution", times.resolution},
+                  {"voxel_grid", times.voxel_grid},
+                  {"normals", times.normals},
+                  {"features", times.features},
+                  {"matching", times.matching}};
   for (const Stage& stage : STAGES)
     timings[stage.name] = stages.*stage.milliseconds;
   timings["estimation"] = stages.total;
-  timings["total"] = outcome.total_ms;
+  timings["copying"] = times.copying;
+  timings["total"] = times.total;
   return timings;
 }
 
