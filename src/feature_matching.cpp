@@ -294,7 +294,7 @@ MutualMatches
 search(const FeatureView& queries,
        const FeatureView& targets,
        std::size_t k,
-       unsigned num_threads,
+       cpu::ThreadPool& pool,
        bool both_ways)
 {
   check("queries", queries);
@@ -317,7 +317,6 @@ search(const FeatureView& queries,
   const std::size_t task_size = BLOCKS_A_TASK * QUERY_BLOCK;
   const std::size_t tasks = (queries.size + task_size - 1) / task_size;
   std::vector<std::vector<FeatureMatch>> found(tasks);
-  cpu::ThreadPool pool(num_threads);
   std::vector<std::optional<BlockSearch>> searches(pool.size());
   pool.forEach(tasks, [&](std::size_t task, std::size_t thread) {
     if (!searches[thread])
@@ -347,13 +346,46 @@ search(const FeatureView& queries,
 
 } // namespace
 
+class FeatureMatcher::Impl {
+public:
+  explicit Impl(unsigned num_threads) : pool(num_threads) {}
+
+  cpu::ThreadPool pool;
+};
+
+FeatureMatcher::FeatureMatcher(unsigned num_threads)
+    : impl_(std::make_unique<Impl>(num_threads))
+{
+}
+
+FeatureMatcher::~FeatureMatcher() = default;
+FeatureMatcher::FeatureMatcher(FeatureMatcher&&) noexcept = default;
+FeatureMatcher&
+FeatureMatcher::operator=(FeatureMatcher&&) noexcept = default;
+
+std::vector<FeatureMatch>
+FeatureMatcher::match(const FeatureView& queries,
+                      const FeatureView& targets,
+                      std::size_t k)
+{
+  return search(queries, targets, k, impl_->pool, false).forward;
+}
+
+MutualMatches
+FeatureMatcher::matchBothWays(const FeatureView& queries,
+                              const FeatureView& targets,
+                              std::size_t k)
+{
+  return search(queries, targets, k, impl_->pool, true);
+}
+
 std::vector<FeatureMatch>
 matchFeatures(const FeatureView& queries,
               const FeatureView& targets,
               std::size_t k,
               unsigned num_threads)
 {
-  return search(queries, targets, k, num_threads, false).forward;
+  return FeatureMatcher(num_threads).match(queries, targets, k);
 }
 
 MutualMatches
@@ -362,7 +394,7 @@ matchFeaturesBothWays(const FeatureView& queries,
                       std::size_t k,
                       unsigned num_threads)
 {
-  return search(queries, targets, k, num_threads, true);
+  return FeatureMatcher(num_threads).matchBothWays(queries, targets, k);
 }
 
 std::vector<FeatureMatch>

@@ -190,5 +190,21 @@ TEST(MatchingInput, RefusesWhatMakesNoSense)
   EXPECT_THROW(matchFeatures(a.view(), null), std::invalid_argument);
 }
 
+TEST(FeatureMatcher, OneObjectMatchesWhateverComes)
+{
+  FeatureMatcher matcher(2);
+  for (const std::size_t dimension : {33, 8, 33})
+    for (const std::size_t size : {1, 300, 40}) {
+      const Features queries = makeFeatures(size, dimension, dimension, 1);
+      const Features targets = makeFeatures(250, dimension, dimension + 3, 2);
+      const MutualMatches both = matcher.matchBothWays(queries.view(), targets.view());
+      expectSame(matcher.match(queries.view(), targets.view(), 3),
+                 exhaustive(queries.view(), targets.view(), 3));
+      expectSame(both.backward, exhaustive(targets.view(), queries.view(), 1));
+      EXPECT_THROW(matcher.match(queries.view(), targets.view(), 0),
+                   std::invalid_argument);
+    }
+}
+
 } // namespace
 } // namespace pcl_flashreg

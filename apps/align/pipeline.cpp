@@ -109,6 +109,7 @@ Keypoints
 describe(const Side& side,
          const Options& options,
          const Outcome& outcome,
+         FeatureExtractor& extractor,
          StepClock& clock)
 {
   Keypoints keypoints;
@@ -120,7 +121,7 @@ describe(const Side& side,
           points, *outcome.resolution, options.threads, timings, keypoints.described);
     else
       keypoints.described =
-          computeFpfh(points, {}, *outcome.resolution, options.threads, &timings);
+          computeFpfh(points, {}, *outcome.resolution, extractor, &timings);
   }
   catch (const std::invalid_argument& error) {
     if (options.leaf)
@@ -236,10 +237,11 @@ matchClouds(const Options& options,
           viewOf(*inputs.target_features));
     return;
   }
+  FeatureExtractor extractor(options.threads);
   progress.say("describing the source, voxels of " + shortNumber(*outcome.resolution));
-  const Keypoints from = describe(source, options, outcome, clock);
+  const Keypoints from = describe(source, options, outcome, extractor, clock);
   progress.say("describing the target");
-  const Keypoints to = describe(target, options, outcome, clock);
+  const Keypoints to = describe(target, options, outcome, extractor, clock);
   if (estimated)
     askForTheUnit(*estimated, progress);
   warnOfLongMatching(from, to, progress);

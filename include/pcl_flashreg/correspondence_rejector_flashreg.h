@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/estimator_settings.h>
 #include <pcl_flashreg/impl/correspondence_buffer.hpp>
 
 #include <pcl/memory.h>
@@ -30,8 +30,8 @@ namespace pcl_flashreg {
  * else from half the inlier threshold as resolution.
  */
 template <typename PointT>
-class CorrespondenceRejectorFlashReg
-    : public pcl::registration::CorrespondenceRejector {
+class CorrespondenceRejectorFlashReg : public pcl::registration::CorrespondenceRejector,
+                                       public EstimatorSettings {
   using PointCloud = pcl::PointCloud<PointT>;
   using PointCloudConstPtr = typename PointCloud::ConstPtr;
 
@@ -86,39 +86,10 @@ public:
     return getParameters().inlier_distance;
   }
 
-  /** \brief Voxel size of the clouds, in their unit; 0 (the default) to take half the
-   * inlier threshold. */
-  void
-  setResolution(double resolution)
-  {
-    resolution_ = resolution;
-  }
-
-  /** \brief All the parameters of the estimator, their lengths included; std::nullopt
-   * (the default) to take the lengths from the resolution. */
-  void
-  setParameters(const std::optional<Parameters>& parameters)
-  {
-    parameters_ = parameters;
-  }
-
   /** \brief The parameters in use.
    * \throws std::invalid_argument if the resolution or the threshold is not > 0 */
   Parameters
   getParameters() const;
-
-  /** \brief CPU threads; 0 (the default) for all. */
-  void
-  setNumberOfThreads(unsigned num_threads)
-  {
-    estimator_.configure(estimator_.backend(), num_threads);
-  }
-
-  void
-  setBackend(BackendKind backend)
-  {
-    estimator_.configure(backend, estimator_.numThreads());
-  }
 
   void
   getRemainingCorrespondences(const pcl::Correspondences& original_correspondences,
@@ -193,12 +164,9 @@ private:
   PointCloudConstPtr input_;
   PointCloudConstPtr target_;
   std::optional<double> inlier_threshold_;
-  double resolution_ = 0;
-  std::optional<Parameters> parameters_;
   bool save_inliers_ = false;
 
   detail::CorrespondenceBuffer buffer_;
-  detail::LazyEstimator estimator_;
   Result result_;
   pcl::Indices inlier_indices_;
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace pcl_flashreg {
@@ -31,29 +32,12 @@ struct FeatureMatch {
   float squared_distance;
 };
 
-/** \brief The k nearest target descriptors of each query descriptor, by exhaustive search.
- *
- * Rows are ordered by query, then distance, then target index; ties go to the smaller
- * target index. Descriptors with a value that is not finite are skipped on both sides.
- * The same on every SIMD variant and number of threads.
- * \param[in] queries descriptors to find matches for
- * \param[in] targets descriptors to search; same dimension
- * \param[in] k matches a query, >= 1; fewer where there are fewer targets
- * \param[in] num_threads CPU threads; 0 takes as many as there are processors
- * \throws std::invalid_argument if the dimensions differ, a stride is below the
- * dimension, k is 0 or a size does not fit 31 bits
- */
-PCL_FLASHREG_EXPORT std::vector<FeatureMatch>
-matchFeatures(const FeatureView& queries,
-              const FeatureView& targets,
-              std::size_t k = 1,
-              unsigned num_threads = 0);
-
 /** \brief Matches from one search in both directions. */
 struct MutualMatches {
-  /** \brief As matchFeatures(queries, targets) gives them. */
+  /** \brief As FeatureMatcher::match(queries, targets) gives them. */
   std::vector<FeatureMatch> forward;
-  /** \brief As matchFeatures(targets, queries) gives them: `query` is a target here. */
+  /** \brief As FeatureMatcher::match(targets, queries) gives them: `query` is a target
+   * here. */
   std::vector<FeatureMatch> backward;
 
   /** \brief Those of `forward` that are in `backward`, too; in order. */
@@ -61,10 +45,55 @@ struct MutualMatches {
   mutual() const;
 };
 
-/** \brief matchFeatures() in both directions in one pass over the pairs. With k = 2 the two
- * rows of a query are what a ratio test compares.
- * \throws std::invalid_argument as matchFeatures()
+/** \brief Nearest neighbours among descriptors, by exhaustive search.
+ *
+ * The same on every SIMD variant and number of threads. Keeps its threads from call to
+ * call; an object is not to be used by two threads at a time.
  */
+class PCL_FLASHREG_EXPORT FeatureMatcher {
+public:
+  /** \param[in] num_threads CPU threads; 0 takes as many as there are processors */
+  explicit FeatureMatcher(unsigned num_threads = 0);
+  ~FeatureMatcher();
+  FeatureMatcher(FeatureMatcher&&) noexcept;
+  FeatureMatcher&
+  operator=(FeatureMatcher&&) noexcept;
+
+  /** \brief The k nearest target descriptors of each query descriptor.
+   *
+   * Rows are ordered by query, then distance, then target index; ties go to the smaller
+   * target index. Descriptors with a value that is not finite are skipped on both sides.
+   * \param[in] queries descriptors to find matches for
+   * \param[in] targets descriptors to search; same dimension
+   * \param[in] k matches a query, >= 1; fewer where there are fewer targets
+   * \throws std::invalid_argument if the dimensions differ, a stride is below the
+   * dimension, k is 0 or a size does not fit 31 bits
+   */
+  std::vector<FeatureMatch>
+  match(const FeatureView& queries, const FeatureView& targets, std::size_t k = 1);
+
+  /** \brief match() in both directions in one pass over the pairs. With k = 2 the two
+   * rows of a query are what a ratio test compares.
+   * \throws std::invalid_argument as match()
+   */
+  MutualMatches
+  matchBothWays(const FeatureView& queries,
+                const FeatureView& targets,
+                std::size_t k = 1);
+
+private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/** \brief FeatureMatcher::match() with threads of its own. */
+PCL_FLASHREG_EXPORT std::vector<FeatureMatch>
+matchFeatures(const FeatureView& queries,
+              const FeatureView& targets,
+              std::size_t k = 1,
+              unsigned num_threads = 0);
+
+/** \brief FeatureMatcher::matchBothWays() with threads of its own. */
 PCL_FLASHREG_EXPORT MutualMatches
 matchFeaturesBothWays(const FeatureView& queries,
                       const FeatureView& targets,

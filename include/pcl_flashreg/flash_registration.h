@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/estimator_settings.h>
 #include <pcl_flashreg/fpfh_features.h>
 #include <pcl_flashreg/impl/cloud_buffer.hpp>
 #include <pcl_flashreg/impl/correspondence_buffer.hpp>
@@ -71,7 +71,8 @@ struct FlashRegistrationTimings {
 template <typename PointSource,
           typename PointTarget,
           typename FeatureT = pcl::FPFHSignature33>
-class FlashRegistration : public pcl::Registration<PointSource, PointTarget, float> {
+class FlashRegistration : public pcl::Registration<PointSource, PointTarget, float>,
+                          public EstimatorSettings {
   using Base = pcl::Registration<PointSource, PointTarget, float>;
 
 public:
@@ -185,16 +186,8 @@ public:
   }
   /**@}*/
 
-  /** \name How the pose is estimated */
+  /** \name How the pose is estimated: these, and those of EstimatorSettings */
   /**@{*/
-
-  /** \brief The voxel size, in the unit of the clouds; 0 (the default) to estimate it.
-   */
-  void
-  setResolution(double resolution)
-  {
-    resolution_ = resolution;
-  }
 
   /** \brief The resolution that was set, or else the one that the last align()
    * estimated, or else 0. */
@@ -204,32 +197,9 @@ public:
     return resolution_ != 0 ? resolution_ : estimated_resolution_;
   }
 
-  /** \brief All the parameters of the estimator, their lengths included, whatever the
-   * resolution: start from Parameters::fromResolution() to change only some.
-   * std::nullopt (the default) to take the lengths from the resolution. */
-  void
-  setParameters(const std::optional<Parameters>& parameters)
-  {
-    parameters_ = parameters;
-  }
-
   /** \brief The parameters that align() uses, as far as they are known before it. */
   Parameters
   getParameters() const;
-
-  /** \brief CPU threads of every part; 0 (the default) for all. */
-  void
-  setNumberOfThreads(unsigned num_threads)
-  {
-    estimator_.configure(estimator_.backend(), num_threads);
-  }
-
-  /** \brief Where the stages of the estimator run; BackendKind::Auto by default. */
-  void
-  setBackend(BackendKind backend)
-  {
-    estimator_.configure(backend, estimator_.numThreads());
-  }
 
   /** \brief Whether the clouds judge the hypotheses, too (the default); it costs a few
    * milliseconds. Only where the class computes the descriptors. */
@@ -469,11 +439,9 @@ private:
   int k_correspondences_ = 1;
   FrontEnd front_end_ = FrontEnd::Native;
 
-  double resolution_ = 0;
   double estimated_resolution_ = 0;
   /** \brief Of the last align(). */
   double inlier_distance_ = 0;
-  std::optional<Parameters> parameters_;
   float inlier_fraction_ = 0;
   int nr_samples_ = 3;
   float similarity_threshold_ = 0.6f;
@@ -488,7 +456,6 @@ private:
   detail::CloudBuffer<float> target_buffer_;
   /** \brief Of the two buffers; nothing where the clouds are not asked. */
   std::optional<CloudPairView<float>> clouds_;
-  detail::LazyEstimator estimator_;
 
   Result result_;
   FlashRegistrationTimings timings_;

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <pcl_flashreg/feature_extractor.h>
+
 #include <pcl/pcl_base.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
@@ -48,6 +50,16 @@ computeFpfh(const pcl::PointCloud<PointT>& cloud,
             const pcl::Indices& indices,
             double resolution,
             unsigned num_threads = 0,
+            FpfhTimings* timings = nullptr);
+
+/** \brief The same with threads and memory that are kept for the next cloud.
+ * \throws std::invalid_argument as above */
+template <typename PointT>
+FpfhCloud
+computeFpfh(const pcl::PointCloud<PointT>& cloud,
+            const pcl::Indices& indices,
+            double resolution,
+            FeatureExtractor& extractor,
             FpfhTimings* timings = nullptr);
 
 /** \brief estimateResolution() of resolution.h for a cloud of PCL's.

@@ -17,7 +17,7 @@ FeatureStore::FeatureStore(std::string root,
                            double leaf,
                            unsigned threads,
                            const std::string& cache_folder)
-    : root_(std::move(root)), leaf_(leaf), threads_(threads)
+    : root_(std::move(root)), leaf_(leaf), extractor_(threads)
 {
   if (!cache_folder.empty())
     cache_.emplace(cache_folder, leaf);
@@ -50,7 +50,7 @@ FeatureStore::release(const Pair& pair)
 }
 
 FeatureStore::Cloud
-FeatureStore::describe(const std::string& path) const
+FeatureStore::describe(const std::string& path)
 {
   std::string key;
   if (cache_) {
@@ -69,7 +69,7 @@ FeatureStore::describe(const std::string& path) const
         (described->viewpoint - cloud.shift).cast<float>();
   const detail::Stopwatch stopwatch;
   try {
-    described->keypoints = computeFpfh(*cloud.points, {}, leaf_, threads_);
+    described->keypoints = computeFpfh(*cloud.points, {}, leaf_, extractor_);
   }
   catch (const std::invalid_argument& error) {
     throw io::InputError(path + ": " + error.what());

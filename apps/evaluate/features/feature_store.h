@@ -50,11 +50,11 @@ public:
 
 private:
   Cloud
-  describe(const std::string& path) const;
+  describe(const std::string& path);
 
   std::string root_;
   double leaf_;
-  unsigned threads_;
+  FeatureExtractor extractor_;
   std::optional<FeatureCache> cache_;
   std::map<std::string, std::size_t> uses_;
   std::map<std::string, Cloud> clouds_;

@@ -80,56 +80,5 @@ private:
   std::vector<float> ranks_;
 };
 
-/** \brief An Estimator that is made when it is first needed, so that one which can't be
- * had is reported by the computation and not by a constructor; a copy makes its own. */
-class LazyEstimator {
-public:
-  LazyEstimator() = default;
-  LazyEstimator(const LazyEstimator& other)
-      : backend_(other.backend_), num_threads_(other.num_threads_)
-  {
-  }
-  LazyEstimator&
-  operator=(const LazyEstimator& other)
-  {
-    configure(other.backend_, other.num_threads_);
-    return *this;
-  }
-
-  void
-  configure(BackendKind backend, unsigned num_threads)
-  {
-    backend_ = backend;
-    num_threads_ = num_threads;
-    estimator_.reset();
-  }
-
-  BackendKind
-  backend() const
-  {
-    return backend_;
-  }
-
-  unsigned
-  numThreads() const
-  {
-    return num_threads_;
-  }
-
-  /** \throws BackendError, std::invalid_argument as Estimator's constructor */
-  Estimator&
-  get()
-  {
-    if (!estimator_)
-      estimator_ = std::make_unique<Estimator>(backend_, num_threads_);
-    return *estimator_;
-  }
-
-private:
-  BackendKind backend_ = BackendKind::Auto;
-  unsigned num_threads_ = 0;
-  std::unique_ptr<Estimator> estimator_;
-};
-
 } // namespace detail
 } // namespace pcl_flashreg

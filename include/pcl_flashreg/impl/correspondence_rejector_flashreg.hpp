@@ -50,7 +50,7 @@ CorrespondenceRejectorFlashReg<PointT>::getRemainingCorrespondences(
   pcl::Correspondences remaining = original_correspondences;
   try {
     buffer_.gather(*input_, *target_, original_correspondences);
-    result_ = estimator_.get().estimate(buffer_.view(), getParameters());
+    result_ = workers_.estimator().estimate(buffer_.view(), getParameters());
     if (result_.status == Status::Ok) {
       const pcl::Indices inliers = findInliers(original_correspondences);
       remaining.clear();

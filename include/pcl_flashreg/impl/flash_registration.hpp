@@ -165,7 +165,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::computeTransformation(
     findCorrespondences();
     const Parameters parameters = getParameters();
     inlier_distance_ = parameters.inlier_distance;
-    result_ = estimator_.get().estimate(
+    result_ = workers_.estimator().estimate(
         buffer_.view(), parameters, hypothesis, clouds_ ? &*clouds_ : nullptr);
     timings_.estimation = result_.timings_ms;
     if (result_.status == Status::Ok)

@@ -85,8 +85,8 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::matchGivenFeatures()
       *input_, *source_features_, indices_.get(), *feature_representation_);
   const detail::PackedFeatures target(
       *target_, *target_features_, nullptr, *feature_representation_);
-  const auto matches = matchFeatures(
-      source.view(), target.view(), k_correspondences_, estimator_.numThreads());
+  const auto matches =
+      workers_.matcher().match(source.view(), target.view(), k_correspondences_);
   correspondences_->reserve(matches.size());
   for (const FeatureMatch& match : matches)
     correspondences_->emplace_back(source.pointOf(match.query),
@@ -105,19 +105,17 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::matchComputedFeatures()
   if (resolution_ == 0)
     estimated_resolution_ = std::max(source_cache_.estimatedResolution(*input_),
                                      target_cache_.estimatedResolution(*target_));
-  const unsigned num_threads = estimator_.numThreads();
   timings_.source_features =
-      source_cache_.update(*input_, getResolution(), front_end_, num_threads);
+      source_cache_.update(*input_, getResolution(), front_end_, workers_);
   timings_.target_features =
-      target_cache_.update(*target_, getResolution(), front_end_, num_threads);
+      target_cache_.update(*target_, getResolution(), front_end_, workers_);
 
   const detail::Stopwatch matching;
   const FpfhCloud& source = source_cache_.fpfh();
   const FpfhCloud& target = target_cache_.fpfh();
-  const auto matches = matchFeatures(detail::viewOf(*source.features),
-                                     detail::viewOf(*target.features),
-                                     k_correspondences_,
-                                     num_threads);
+  const auto matches = workers_.matcher().match(detail::viewOf(*source.features),
+                                                detail::viewOf(*target.features),
+                                                k_correspondences_);
   correspondences_->reserve(matches.size());
   for (const FeatureMatch& match : matches)
     correspondences_->emplace_back(match.query, match.match, match.squared_distance);

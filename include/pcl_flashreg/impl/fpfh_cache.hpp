@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl_flashreg/fpfh_features.h>
+#include <pcl_flashreg/impl/lazy_workers.hpp>
 #include <pcl_flashreg/pcl_front_end.h>
 
 #include <optional>
@@ -57,14 +58,16 @@ public:
   update(const pcl::PointCloud<PointT>& cloud,
          double resolution,
          FrontEnd front_end,
-         unsigned num_threads)
+         LazyWorkers& workers)
   {
     FpfhTimings timings;
     if (resolution == resolution_ && front_end == front_end_)
       return timings;
-    fpfh_ = front_end == FrontEnd::Pcl
-                ? computeFpfhWithPcl(cloud, indices_, resolution, num_threads, &timings)
-                : computeFpfh(cloud, indices_, resolution, num_threads, &timings);
+    if (front_end == FrontEnd::Pcl)
+      fpfh_ = computeFpfhWithPcl(
+          cloud, indices_, resolution, workers.numThreads(), &timings);
+    else
+      fpfh_ = computeFpfh(cloud, indices_, resolution, workers.extractor(), &timings);
     resolution_ = resolution;
     front_end_ = front_end;
     return timings;

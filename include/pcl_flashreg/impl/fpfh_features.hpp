@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <pcl_flashreg/feature_extractor.h>
 #include <pcl_flashreg/fpfh_features.h>
 #include <pcl_flashreg/resolution.h>
 
@@ -89,7 +88,7 @@ FpfhCloud
 computeFpfh(const pcl::PointCloud<PointT>& cloud,
             const pcl::Indices& indices,
             double resolution,
-            unsigned num_threads,
+            FeatureExtractor& extractor,
             FpfhTimings* timings)
 {
   const detail::FloatRows<PointT> rows(cloud, indices);
@@ -97,8 +96,8 @@ computeFpfh(const pcl::PointCloud<PointT>& cloud,
   for (int axis = 0; axis < 3; ++axis)
     parameters.viewpoint[axis] = cloud.sensor_origin_[axis];
   FeatureTimings spent;
-  const FpfhCloud result = detail::toFpfhCloud(
-      FeatureExtractor(num_threads).describe(rows.view(), parameters, &spent));
+  const FpfhCloud result =
+      detail::toFpfhCloud(extractor.describe(rows.view(), parameters, &spent));
   result.points->header = cloud.header;
   result.points->sensor_origin_ = cloud.sensor_origin_;
   result.points->sensor_orientation_ = cloud.sensor_orientation_;
@@ -108,6 +107,18 @@ computeFpfh(const pcl::PointCloud<PointT>& cloud,
     timings->features = spent.point_histograms + spent.feature_histograms;
   }
   return result;
+}
+
+template <typename PointT>
+FpfhCloud
+computeFpfh(const pcl::PointCloud<PointT>& cloud,
+            const pcl::Indices& indices,
+            double resolution,
+            unsigned num_threads,
+            FpfhTimings* timings)
+{
+  FeatureExtractor extractor(num_threads);
+  return computeFpfh(cloud, indices, resolution, extractor, timings);
 }
 
 template <typename PointT>
