@@ -7,27 +7,15 @@
 
 #include "cuda_backend.h"
 #include "support/datasets.h"
+#include "support/device.h"
 #include "support/recordings.h"
 
 #include <pcl_flashreg/estimator.h>
 
 #include <gtest/gtest.h>
 
-#if defined(PCL_FLASHREG_EMULATED)
-#include "emulation.h"
-#endif
-
 namespace pcl_flashreg {
 namespace {
-
-/** \brief Skips the test where there is no device; the emulation always has one. */
-#define PCL_FLASHREG_NEEDS_DEVICE                                                      \
-  try {                                                                                \
-    makeCudaBackend();                                                                 \
-  }                                                                                    \
-  catch (const BackendError& error) {                                                  \
-    GTEST_SKIP() << error.what();                                                      \
-  }
 
 /** \brief How kernels are launched, and in which order the emulated threads run. */
 struct Way {
@@ -55,11 +43,7 @@ runOnDevice(const Way& way,
             const Parameters& parameters,
             const std::optional<Pose>& guess = std::nullopt)
 {
-#if defined(PCL_FLASHREG_EMULATED)
-  cuda_emulation::reset();
-  cuda_emulation::device().order = static_cast<cuda_emulation::Order>(way.order);
-  cuda_emulation::device().seed = way.seed;
-#endif
+  freshDevice(way.order, way.seed);
   cuda::Options options;
   options.fused = way.fused;
   return record(*cuda::makeBackend(options), problem, parameters, guess);

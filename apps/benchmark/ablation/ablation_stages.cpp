@@ -30,7 +30,7 @@ optionsOf(const AblationRow& row)
 }
 
 bool
-densePart(const AblationRow& row)
+hasDenseGraph(const AblationRow& row)
 {
   return !row.fast_fog || !row.sparse();
 }
@@ -66,7 +66,7 @@ AblationStages::reserve()
                        " correspondences are too many for a dense matrix of scores");
   if (row_.second_order == SecondOrderModule::HalfProduct)
     half_graph_.reserve(n * stride);
-  else if (densePart(row_))
+  else if (hasDenseGraph(row_))
     graph_.reserve(n * stride);
   if (!row_.dataflow) {
     scores_.reserve(n * stride);
@@ -226,7 +226,7 @@ AblationStages::copyTo(Trace& trace) const
 {
   own_.copyTo(trace);
   const std::size_t n = trace.size, stride = dense::strideOf(n);
-  if (densePart(row_))
+  if (hasDenseGraph(row_))
     withGraph([&](auto matrix) {
       const auto values = download(matrix);
       trace.first_order_graph.assign(n * trace.words_per_row, 0);

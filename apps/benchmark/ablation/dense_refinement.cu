@@ -3,7 +3,7 @@
 
 #include "dense_refinement.cuh"
 
-#include "dense_verification.cuh"
+#include "dense_score.cuh"
 #include "launch.cuh"
 #include "refine_pose.cuh"
 #include "slot_rank.cuh"

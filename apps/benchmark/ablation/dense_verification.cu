@@ -7,6 +7,7 @@
 #include "dense_verification.cuh"
 
 #include "block.cuh"
+#include "dense_score.cuh"
 #include "launch.cuh"
 
 namespace pcl_flashreg {
