@@ -5,8 +5,9 @@
 #
 #   scripts/check_gpu.sh [OUT [STEP...]]      OUT is a folder, ./check_gpu by default
 #
-# Steps, all unless some are named: conformance memcheck racecheck synccheck benchmark kitti
-# ablation turboreg. A step whose data are not there is skipped.
+# Steps, all unless some are named: conformance ablation_conformance memcheck racecheck
+# synccheck benchmark kitti ablation turboreg turboreg_kitti. A step whose data are not there
+# is skipped.
 #
 #   PCL_FLASHREG_EIGEN          folder that holds Eigen/Core         [/usr/include/eigen3]
 #   PCL_FLASHREG_GOOGLETEST     sources of GoogleTest                [/usr/src/googletest]
@@ -86,7 +87,7 @@ cmake -S "$root" -B "$build/core" -DCMAKE_BUILD_TYPE=Release \
   ${architectures:+-DPCL_FLASHREG_CUDA_ARCHITECTURES="$architectures"} \
   -DPCL_FLASHREG_WERROR=ON "${cmake_args[@]}"
 cmake --build "$build/core" --parallel \
-  --target test_cuda_conformance pcl_flashreg_benchmark
+  --target test_cuda_conformance test_cuda_ablation pcl_flashreg_benchmark
 
 if [[ -z $device ]]; then
   echo "$0: built, but there is no device to check it on" >&2
@@ -122,6 +123,7 @@ check() {
 export PCL_FLASHREG_DATASETS=$datasets
 conformance=$build/core/test/test_cuda_conformance
 check conformance "$conformance"
+check ablation_conformance "$build/core/test/test_cuda_ablation"
 # The sanitizers slow kernels down by orders of magnitude: every kernel, on small problems.
 small='CudaGuess.*:CudaScores.*:*n129_*:*ties_on_a_grid*:*rows_over_capacity*:*empty_graph*'
 for tool in memcheck racecheck synccheck; do
