@@ -25,6 +25,15 @@ constexpr unsigned SLOTS = THREADS * POSES;
 /** \brief Correspondences of a block. */
 constexpr unsigned PIECE = 64;
 
+/** \brief Blocks that a multiprocessor's registers shall suffice for. Seven: the usual call's
+ * 880 blocks are all resident on 132 multiprocessors, and none waits for a second round. The
+ * sums of the other scores take more registers. */
+constexpr unsigned
+residentBlocks(ScoreMetric metric)
+{
+  return metric == ScoreMetric::Inliers ? 7 : 6;
+}
+
 /** \brief A correspondence as two reads of 16 bytes. */
 struct SharedPair {
   float4 source, target;
@@ -32,7 +41,7 @@ struct SharedPair {
 
 template <ScoreMetric METRIC>
 __global__ void
-__launch_bounds__(THREADS) scorePoses(const Call call)
+__launch_bounds__(THREADS, residentBlocks(METRIC)) scorePoses(const Call call)
 {
   if (!planHolds(call))
     return;

@@ -223,6 +223,29 @@ TEST(CudaAblation, TakesTheMemoryOfMatrices)
   }
 }
 
+/** \brief What a call takes before its first kernel; the dense rows need more, to sort. */
+TEST(CudaAblation, ThisProjectTakesATwentiethOfTheDenseMemory)
+{
+  Problem problem;
+  Preparation preparation;
+  made::Recipe recipe;
+  recipe.size = 7000;
+  prepare(made::make(recipe).view(), recipe.size, preparation, problem);
+  const auto bytesOf = [&](const AblationRow& row) {
+    cuda_emulation::reset();
+    AblationStages stages(row);
+    StageTimings timings;
+    StageClock clock(timings);
+    stages.begin(problem, Parameters::fromResolution(0.05), std::nullopt, clock);
+    return stages.deviceBytes();
+  };
+  const std::size_t dense = bytesOf(ablationRows().front());
+  for (const AblationRow& row : ablationRows())
+    if (row.own_rest) {
+      EXPECT_LT(20 * bytesOf(row), dense) << row.name;
+    }
+}
+
 /** \brief Whichever launch or allocation fails: an error, and nothing is left behind. */
 TEST(CudaAblation, ReportsFailures)
 {

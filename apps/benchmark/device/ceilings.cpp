@@ -64,8 +64,8 @@ leastScoreBytes(const Trace& trace, std::size_t words)
   std::vector<std::size_t> degree(trace.size, 0);
   for (std::size_t u = 0; u < trace.size; ++u)
     for (std::size_t w = 0; w < trace.words_per_row; ++w)
-      degree[u] += static_cast<std::size_t>(__builtin_popcountll(
-          trace.first_order_graph[u * trace.words_per_row + w]));
+      degree[u] += static_cast<std::size_t>(
+          __builtin_popcountll(trace.first_order_graph[u * trace.words_per_row + w]));
   double bytes = 0;
   for (std::size_t u = 0; u < trace.size; ++u)
     for (std::size_t v = u + 1; v < trace.size; ++v)
@@ -86,8 +86,7 @@ measureCeilings()
   result.reserve(resultSize(blocks));
   cuda::DeviceBuffer<uint4> buffer;
   buffer.reserve(size);
-  PCL_FLASHREG_CUDA(
-      cudaMemsetAsync(buffer.data(), 0x5A, BUFFER_BYTES, stream.get()));
+  PCL_FLASHREG_CUDA(cudaMemsetAsync(buffer.data(), 0x5A, BUFFER_BYTES, stream.get()));
   Ceilings ceilings;
   ceilings.operations_per_second = rateOf(
       stream, [&] { return runArithmetic(blocks, result.data(), stream.get()); });
@@ -98,7 +97,10 @@ measureCeilings()
 }
 
 Floor
-floorOf(const Problem& problem, const Trace& trace, bool exact, const Ceilings& ceilings)
+floorOf(const Problem& problem,
+        const Trace& trace,
+        bool exact,
+        const Ceilings& ceilings)
 {
   const auto n = static_cast<double>(problem.size);
   const auto milliseconds = [&](double operations, double bytes) {
@@ -106,8 +108,7 @@ floorOf(const Problem& problem, const Trace& trace, bool exact, const Ceilings& 
                           bytes / ceilings.cache_bytes_per_second);
   };
   Floor floor;
-  floor.first_order_graph_ms =
-      milliseconds(n * n / 2 * OPERATIONS_A_PAIR, n * n / 8);
+  floor.first_order_graph_ms = milliseconds(n * n / 2 * OPERATIONS_A_PAIR, n * n / 8);
   floor.verification_ms = milliseconds(
       n * static_cast<double>(trace.hypotheses.size()) * OPERATIONS_A_RESIDUAL, 0);
   if (exact)

@@ -39,7 +39,8 @@ __launch_bounds__(THREADS) fuse(const float factor, float* result)
 }
 
 __global__ void
-__launch_bounds__(THREADS) readAll(const uint4* buffer, const unsigned size, float* result)
+__launch_bounds__(THREADS)
+    readAll(const uint4* buffer, const unsigned size, float* result)
 {
   const unsigned thread = blockIdx.x * THREADS + threadIdx.x;
   const unsigned threads = gridDim.x * THREADS;
