@@ -64,7 +64,7 @@ TEST_F(Benchmark, TimesADevice)
     EXPECT_EQ(device.at("throughput")[1].at("streams"), 3);
     EXPECT_GT(device.at("throughput")[1].at("pairs_per_second"), 0);
     EXPECT_TRUE(device.contains("energy_mj"));
-    const auto& floor = device.at("floor_ms");
+    const auto& floor = device.at("work").at("floor_ms");
     EXPECT_GT(floor.at("first_order_graph"), 0);
     EXPECT_GT(floor.at("verification"), 0);
     EXPECT_EQ(floor.at("second_order_graph").is_null(), i % 2 == 1);

@@ -57,11 +57,11 @@ measureAll(const Setting& setting,
                             options.threads,
                             options.runs));
       if (!setting.device.empty())
-        all.back().device = measureOnDevice(
-            problem.view(),
-            parameters,
-            {options.runs, options.streams, options.energy_seconds, setting.ceilings});
-      print(all.back());
+        all.back().device =
+            measureOnDevice(problem.view(),
+                            parameters,
+                            {options.runs, options.streams, options.energy_seconds});
+      print(all.back(), setting.ceilings);
     }
   return all;
 }

@@ -19,7 +19,7 @@ formOf(const Measurement& m)
 }
 
 void
-printDevice(const DeviceFigures& figures)
+printDevice(const DeviceFigures& figures, const Ceilings& ceilings)
 {
   std::printf("    resident %.3f (p10 %.3f, p90 %.3f) ms; %.1f MB; pairs a second",
               figures.resident_ms.median,
@@ -33,26 +33,35 @@ printDevice(const DeviceFigures& figures)
     std::printf("; %.1f mJ a pair\n", *figures.energy_mj);
   else
     std::printf("; energy not measured\n");
-  if (!figures.floor)
+  if (!figures.work)
     return;
+  const Floor floor = floorOf(*figures.work, ceilings);
   std::printf("    floor %.3f ms: first_order_graph %.3f, ",
-              figures.floor->total(),
-              figures.floor->first_order_graph_ms);
-  if (figures.floor->second_order_graph_ms)
-    std::printf("second_order_graph %.3f, ", *figures.floor->second_order_graph_ms);
-  std::printf("verification %.3f\n", figures.floor->verification_ms);
+              floor.total(),
+              floor.first_order_graph);
+  if (floor.second_order_graph)
+    std::printf("second_order_graph %.3f, ", *floor.second_order_graph);
+  std::printf("verification %.3f\n", floor.verification);
 }
 
 nlohmann::json
-toJson(const Floor& floor)
+orNull(const std::optional<double>& value)
 {
-  nlohmann::json json{{"first_order_graph", floor.first_order_graph_ms},
-                      {"second_order_graph", nullptr},
-                      {"verification", floor.verification_ms},
-                      {"total", floor.total()}};
-  if (floor.second_order_graph_ms)
-    json["second_order_graph"] = *floor.second_order_graph_ms;
-  return json;
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json
+toJson(const Work& work, const Ceilings& ceilings)
+{
+  const Floor floor = floorOf(work, ceilings);
+  return {{"first_order_graph_operations", work.first_order_graph_operations},
+          {"second_order_graph_bytes", orNull(work.second_order_graph_bytes)},
+          {"verification_operations", work.verification_operations},
+          {"floor_ms",
+           {{"first_order_graph", floor.first_order_graph},
+            {"second_order_graph", orNull(floor.second_order_graph)},
+            {"verification", floor.verification},
+            {"total", floor.total()}}}};
 }
 
 nlohmann::json
@@ -65,7 +74,7 @@ toJson(const Spread& spread)
 }
 
 nlohmann::json
-toJson(const DeviceFigures& figures)
+toJson(const DeviceFigures& figures, const Ceilings& ceilings)
 {
   nlohmann::json throughput = nlohmann::json::array();
   for (const Throughput& t : figures.throughput)
@@ -74,17 +83,15 @@ toJson(const DeviceFigures& figures)
   nlohmann::json json{{"resident_ms", toJson(figures.resident_ms)},
                       {"memory_bytes", figures.memory_bytes},
                       {"throughput", throughput},
-                      {"energy_mj", nullptr},
-                      {"floor_ms", nullptr}};
-  if (figures.energy_mj)
-    json["energy_mj"] = *figures.energy_mj;
-  if (figures.floor)
-    json["floor_ms"] = toJson(*figures.floor);
+                      {"energy_mj", orNull(figures.energy_mj)},
+                      {"work", nullptr}};
+  if (figures.work)
+    json["work"] = toJson(*figures.work, ceilings);
   return json;
 }
 
 nlohmann::json
-toJson(const Measurement& m)
+toJson(const Measurement& m, const Ceilings& ceilings)
 {
   nlohmann::json stages;
   for (std::size_t s = 0; s < STAGES.size(); ++s)
@@ -98,7 +105,7 @@ toJson(const Measurement& m)
                       {"cold_ms", m.cold_ms},
                       {"timings_ms", stages}};
   if (m.device)
-    json["device"] = toJson(*m.device);
+    json["device"] = toJson(*m.device, ceilings);
   return json;
 }
 
@@ -150,7 +157,7 @@ printHeader()
 }
 
 void
-print(const Measurement& m)
+print(const Measurement& m, const Ceilings& ceilings)
 {
   std::printf("%-26s %-7s %7zu %8zu",
               m.name.c_str(),
@@ -165,7 +172,7 @@ print(const Measurement& m)
               m.total.p90,
               m.cold_ms);
   if (m.device)
-    printDevice(*m.device);
+    printDevice(*m.device, ceilings);
   std::fflush(stdout);
 }
 
@@ -199,7 +206,7 @@ toJson(const Setting& setting, const Options& options, const Figures& figures)
         {"cache_bytes_per_second", setting.ceilings.cache_bytes_per_second}};
   }
   for (const Measurement& m : figures.measurements)
-    json["measurements"].push_back(toJson(m));
+    json["measurements"].push_back(toJson(m, setting.ceilings));
   for (const NamedAblation& ablation : figures.ablations)
     json["ablations"].push_back(toJson(ablation));
   return json.dump(2) + "\n";

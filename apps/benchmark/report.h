@@ -43,8 +43,9 @@ printSetting(const Setting& setting);
 void
 printHeader();
 
+/** \param[in] ceilings of the device, if one was measured */
 void
-print(const Measurement& measurement);
+print(const Measurement& measurement, const Ceilings& ceilings);
 
 void
 print(const NamedAblation& ablation);

@@ -3,15 +3,11 @@
 
 #include "ceilings.h"
 
-#include "../spread.h"
 #include "ceilings.cuh"
 #include "memory.h"
-#include "problem.h"
 #include "stream.h"
-#include "trace.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pcl_flashreg::benchmark {
 namespace {
@@ -20,13 +16,6 @@ namespace {
 constexpr std::size_t BUFFER_BYTES = std::size_t{8} << 20;
 constexpr unsigned BLOCKS_A_MULTIPROCESSOR = 8;
 constexpr int REPETITIONS = 5;
-
-// The least that a test can do, all of them operations on single-precision numbers.
-/** \brief Two squared lengths, 4 each from products with norms at hand, the sign of the
- * defect, 4, two comparisons and what those need, 4. */
-constexpr double OPERATIONS_A_PAIR = 16;
-/** \brief Three components of four operations, their square, a comparison, a count. */
-constexpr double OPERATIONS_A_RESIDUAL = 17;
 
 unsigned
 multiprocessors()
@@ -56,24 +45,6 @@ rateOf(cuda::Stream& stream, Run&& run)
   return best;
 }
 
-/** \brief Bytes that scoring every edge reads at least: of the shorter of v's list and v's
- * row of bits, which is how the kernel chooses, too. */
-double
-leastScoreBytes(const Trace& trace, std::size_t words)
-{
-  std::vector<std::size_t> degree(trace.size, 0);
-  for (std::size_t u = 0; u < trace.size; ++u)
-    for (std::size_t w = 0; w < trace.words_per_row; ++w)
-      degree[u] += static_cast<std::size_t>(
-          __builtin_popcountll(trace.first_order_graph[u * trace.words_per_row + w]));
-  double bytes = 0;
-  for (std::size_t u = 0; u < trace.size; ++u)
-    for (std::size_t v = u + 1; v < trace.size; ++v)
-      if (trace.hasEdge(u, v))
-        bytes += 4.0 * static_cast<double>(std::min(degree[v], words));
-  return bytes;
-}
-
 } // namespace
 
 Ceilings
@@ -94,27 +65,6 @@ measureCeilings()
     return runReads(blocks, buffer.data(), size, result.data(), stream.get());
   });
   return ceilings;
-}
-
-Floor
-floorOf(const Problem& problem,
-        const Trace& trace,
-        bool exact,
-        const Ceilings& ceilings)
-{
-  const auto n = static_cast<double>(problem.size);
-  const auto milliseconds = [&](double operations, double bytes) {
-    return 1e3 * std::max(operations / ceilings.operations_per_second,
-                          bytes / ceilings.cache_bytes_per_second);
-  };
-  Floor floor;
-  floor.first_order_graph_ms = milliseconds(n * n / 2 * OPERATIONS_A_PAIR, n * n / 8);
-  floor.verification_ms = milliseconds(
-      n * static_cast<double>(trace.hypotheses.size()) * OPERATIONS_A_RESIDUAL, 0);
-  if (exact)
-    floor.second_order_graph_ms =
-        milliseconds(0, leastScoreBytes(trace, (problem.size + 31) / 32));
-  return floor;
 }
 
 } // namespace pcl_flashreg::benchmark

@@ -71,15 +71,14 @@ public:
     return backend_->run(problem_, parameters_, std::nullopt, false, clock, trace);
   }
 
-  std::optional<Floor>
-  floor(const Ceilings& ceilings)
+  std::optional<Work>
+  work()
   {
     if (problem_.size > LARGEST_COUNTED)
       return std::nullopt;
     Trace trace;
     const PoseEstimate estimate = (*this)(&trace);
-    return floorOf(
-        problem_, trace, estimate.second_order == SecondOrder::Exact, ceilings);
+    return workOf(problem_, trace, estimate.second_order == SecondOrder::Exact);
   }
 
 private:
@@ -166,7 +165,7 @@ measureOnDevice(const CorrespondenceView<double>& correspondences,
     figures.memory_bytes = free - std::min(free, freeBytes());
     if (effort.energy_seconds > 0)
       figures.energy_mj = energyOf(call, effort.energy_seconds);
-    figures.floor = call.floor(effort.ceilings);
+    figures.work = call.work();
   }
   for (const unsigned streams : effort.streams)
     figures.throughput.push_back(

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../spread.h"
-#include "ceilings.h"
+#include "work.h"
 
 #include <pcl_flashreg/estimator.h>
 
@@ -35,7 +35,7 @@ struct DeviceFigures {
    * subtracted. Nothing where NVML can't tell. */
   std::optional<double> energy_mj;
   /** \brief Nothing for problems too large to count their work on the host. */
-  std::optional<Floor> floor;
+  std::optional<Work> work;
 };
 
 /** \brief How much is measured. */
@@ -44,7 +44,6 @@ struct DeviceEffort {
   std::vector<unsigned> streams;
   /** \brief 0: energy is not measured. */
   double energy_seconds = 0;
-  Ceilings ceilings;
 };
 
 /** \throws BackendError */
