@@ -7,7 +7,7 @@
 
 #include "math/edge_filter.h"
 #include "math/residual.h"
-#include "math/rigid3.h"
+#include "math/pose.h"
 #include "problem.h"
 
 #include <pcl_flashreg/parameters.h>

@@ -9,6 +9,7 @@
 
 #include "block.cuh"
 #include "launch.cuh"
+#include "math/triplet_alignment.h"
 
 namespace pcl_flashreg {
 namespace cuda {

@@ -7,6 +7,7 @@
 
 #include "block.cuh"
 #include "call.cuh"
+#include "math/weighted_alignment.h"
 #include "residual_test.cuh"
 
 namespace pcl_flashreg {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "aligned_buffer.h"
-#include "math/rigid3.h"
+#include "math/pose.h"
 
 #include <cstddef>
 #include <cstdint>

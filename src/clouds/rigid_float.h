@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "math/rigid3.h"
+#include "math/pose.h"
 
 #include <Eigen/Core>
 

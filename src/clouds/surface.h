@@ -5,7 +5,7 @@
 
 #include "clouds/free_space.h"
 #include "clouds/nearest_point_grid.h"
-#include "math/rigid3.h"
+#include "math/pose.h"
 
 #include <pcl_flashreg/cloud_view.h>
 

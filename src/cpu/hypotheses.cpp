@@ -4,6 +4,7 @@
 // Stage 5: one rigid transform a clique, and the caller's guess behind them.
 
 #include "cpu/stages.h"
+#include "math/triplet_alignment.h"
 
 #include <algorithm>
 

@@ -6,6 +6,7 @@
 #include "cpu/bits.h"
 #include "cpu/stages.h"
 #include "math/distinctness.h"
+#include "math/weighted_alignment.h"
 
 #include <algorithm>
 #include <numeric>

@@ -3,7 +3,9 @@
 
 #pragma once
 
-#include "math/rigid3.h"
+#include "math/vec3.h"
+
+#include <cmath>
 
 namespace pcl_flashreg {
 

@@ -9,7 +9,6 @@
 #include <pcl/point_cloud.h>
 
 #include <limits>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>

@@ -3,7 +3,8 @@
 
 // Laws of the alignments, and Eigen's SVD as their oracle.
 
-#include "math/rigid3.h"
+#include "math/triplet_alignment.h"
+#include "math/weighted_alignment.h"
 #include "support/made_correspondences.h"
 
 #include <Eigen/Geometry>
