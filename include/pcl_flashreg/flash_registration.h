@@ -64,7 +64,8 @@ struct FlashRegistrationTimings {
  *   output are rotated with it.
  * - As with all of PCL: a program with a point type of its own must include
  *   pcl/kdtree/impl/kdtree_flann.hpp or define PCL_NO_PRECOMPILE, and one compiled
- *   with other SIMD flags than PCL's libraries (-mavx2) must define the latter.
+ *   with other SIMD flags than PCL's libraries (-mavx2) must define the latter before it
+ *   uses FrontEnd::Pcl: Eigen's memory is laid out otherwise there.
  * - setMaximumIterations(), setRANSACIterations() and other settings of
  *   pcl::Registration that are not named here have no effect.
  */
