@@ -5,6 +5,7 @@
 #include "../io/file.h"
 #include "../io/pcl_cloud.h"
 #include "../io/transform_io.h"
+#include "../program/program.h"
 #include "inputs.h"
 #include "options.h"
 #include "pipeline.h"
@@ -16,12 +17,12 @@
 #include <pcl/console/print.h>
 
 #include <iostream>
-#include <new>
 
 namespace pcl_flashreg::align {
 namespace {
 
-enum ExitStatus { kTrusted = 0, kNotTrusted = 1, kUsage = 2, kFailure = 3 };
+/** \brief Exit statuses beside those of program::run(). */
+enum Verdict { TRUSTED = 0, NOT_TRUSTED = 1 };
 
 /** \brief The source in the target's frame, with all its fields. */
 io::Cloud
@@ -76,7 +77,7 @@ writeOutputs(const Options& options,
     showClouds(inputs.source->xyz, inputs.target->xyz, pose);
 }
 
-ExitStatus
+Verdict
 run(const Options& options)
 {
   const Progress progress(options.quiet);
@@ -87,32 +88,7 @@ run(const Options& options)
   if (!options.quiet && options.json != "-")
     std::cout << formatReport(options, outcome) << std::flush;
   writeOutputs(options, inputs, outcome, progress);
-  return outcome.result.converged ? kTrusted : kNotTrusted;
-}
-
-ExitStatus
-fail(ExitStatus status, const std::string& message)
-{
-  std::cerr << "pcl_flashreg_align: error: " << message << std::endl;
-  return status;
-}
-
-ExitStatus
-parseAndRun(int argc, char** argv)
-{
-  try {
-    const std::optional<Options> options = parseOptions(argc, argv);
-    return options ? run(*options) : kTrusted;
-  }
-  catch (const UsageError& error) {
-    return fail(kUsage, error.what());
-  }
-  catch (const std::bad_alloc&) {
-    return fail(kFailure, "not enough memory");
-  }
-  catch (const std::exception& error) {
-    return fail(kFailure, error.what());
-  }
+  return outcome.result.converged ? TRUSTED : NOT_TRUSTED;
 }
 
 } // namespace
@@ -121,7 +97,11 @@ parseAndRun(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
+  using namespace pcl_flashreg;
   // PCL's own messages would stand between the user and ours.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  return pcl_flashreg::align::parseAndRun(argc, argv);
+  return program::run("pcl_flashreg_align", [&] {
+    const std::optional<align::Options> options = align::parseOptions(argc, argv);
+    return options ? align::run(*options) : align::TRUSTED;
+  });
 }

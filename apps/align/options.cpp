@@ -4,6 +4,7 @@
 #include "options.h"
 
 #include "../io/cloud_io.h"
+#include "../program/command_line.h"
 #include "option_groups.h"
 #include "snapshot.h"
 #include "viewer.h"
@@ -136,16 +137,8 @@ parseOptions(int argc, char** argv)
   app.set_version_flag("--version", std::string("pcl_flashreg_align ") + version());
   app.footer(kFooter);
   addOptions(app, options, words);
-  try {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::Success& request) {
-    app.exit(request);
+  if (!program::parse(app, argc, argv))
     return std::nullopt;
-  }
-  catch (const CLI::ParseError& error) {
-    throw UsageError(error.what() + std::string(" (--help lists the options)"));
-  }
   takeWords(words, options);
   check(options);
   checkOutputPaths(options);

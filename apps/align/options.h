@@ -3,21 +3,18 @@
 
 #pragma once
 
+#include "../program/program.h"
+
 #include <pcl_flashreg/parameters.h>
 
 #include <cstddef>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace pcl_flashreg::align {
 
-/** \brief The command line asks for something that can't be. */
-class UsageError : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
+using program::UsageError;
 
 /** \brief The command line of pcl_flashreg_align; an empty path is one not given. */
 struct Options {

@@ -5,6 +5,7 @@
 
 #include "../io/error.h"
 #include "../io/file.h"
+#include "../program/program.h"
 #include "options.h"
 #include "results/report.h"
 #include "run/evaluation.h"
@@ -16,13 +17,10 @@
 
 #include <cstdio>
 #include <iostream>
-#include <new>
 #include <set>
 
 namespace pcl_flashreg::evaluate {
 namespace {
-
-enum ExitStatus { kDone = 0, kUsage = 2, kFailure = 3 };
 
 void
 report(const Options& options, const Results& results)
@@ -124,34 +122,14 @@ merge(const Options& options)
   report(options, results);
 }
 
-ExitStatus
-fail(ExitStatus status, const std::string& message)
+void
+run(const Options& options, const Ranks& ranks)
 {
-  std::cerr << "pcl_flashreg_evaluate: error: " << message << std::endl;
-  return status;
-}
-
-ExitStatus
-parseAndRun(int argc, char** argv, const Ranks& ranks)
-{
-  try {
-    const std::optional<Options> options = parseOptions(argc, argv);
-    ranks.wait(); // all have looked for the file before the first one makes it
-    if (options && options->merge.empty())
-      evaluate(*options, ranks);
-    else if (options && ranks.rank() == 0)
-      merge(*options);
-    return kDone;
-  }
-  catch (const UsageError& error) {
-    return fail(kUsage, error.what());
-  }
-  catch (const std::bad_alloc&) {
-    return fail(kFailure, "not enough memory");
-  }
-  catch (const std::exception& error) {
-    return fail(kFailure, error.what());
-  }
+  ranks.wait(); // all have looked for the file before the first one makes it
+  if (options.merge.empty())
+    evaluate(options, ranks);
+  else if (ranks.rank() == 0)
+    merge(options);
 }
 
 } // namespace
@@ -160,10 +138,14 @@ parseAndRun(int argc, char** argv, const Ranks& ranks)
 int
 main(int argc, char** argv)
 {
-  using namespace pcl_flashreg::evaluate;
+  using namespace pcl_flashreg;
   // PCL's own messages would stand between the user and ours.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  const Ranks ranks;
-  const int status = parseAndRun(argc, argv, ranks);
-  return status == kDone ? status : ranks.abort(status);
+  const evaluate::Ranks ranks;
+  const int status = program::run("pcl_flashreg_evaluate", [&] {
+    if (const auto options = evaluate::parseOptions(argc, argv))
+      evaluate::run(*options, ranks);
+    return 0;
+  });
+  return status == 0 ? status : ranks.abort(status);
 }

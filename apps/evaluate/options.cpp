@@ -3,13 +3,11 @@
 
 #include "options.h"
 
+#include "../io/text.h"
+#include "../program/command_line.h"
 #include "methods/registry.h"
 
 #include <pcl_flashreg/estimator.h>
-
-#include "../io/text.h"
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -178,16 +176,8 @@ parseOptions(int argc, char** argv)
   declareData(app, options);
   declareMethod(app, options);
   declareOutput(app, options, shard);
-  try {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::Success& request) {
-    app.exit(request);
+  if (!program::parse(app, argc, argv))
     return std::nullopt;
-  }
-  catch (const CLI::ParseError& error) {
-    throw UsageError(error.what() + std::string(" (--help lists the options)"));
-  }
   options.score = SCORES.at(options.score_name);
   if (!shard.empty())
     options.shard = parseShard(shard);

@@ -3,23 +3,19 @@
 
 #pragma once
 
+#include "../program/program.h"
 #include "datasets/data_set.h"
 
 #include <pcl_flashreg/parameters.h>
 
 #include <cstddef>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace pcl_flashreg::evaluate {
 
-/** \brief The command line asks for something that can't be. */
-class UsageError : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
+using program::UsageError;
 
 /** \brief Part `index` of `count`, from 1. */
 struct Shard {

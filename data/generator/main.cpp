@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
+#include "program/command_line.h"
 #include "scan_pair.h"
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-#include <CLI/CLI.hpp>
-
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
-#include <iostream>
 #include <stdexcept>
 #include <string>
 
 namespace generator = pcl_flashreg::generator;
+namespace program = pcl_flashreg::program;
 
 namespace {
 
@@ -58,24 +57,15 @@ main(int argc, char** argv)
       ->required();
   app.add_option("--seed", seed, "varies the scene, the viewpoints and the noise")
       ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-
-  try {
+  return program::run("pcl_flashreg_generate", [&] {
+    if (!program::parse(app, argc, argv))
+      return 0;
     const auto pair = generator::makeScanPair(scene, seed);
     const std::filesystem::path out(directory);
     std::filesystem::create_directories(out);
     writeCloud(out / "source.pcd", pair.source);
     writeCloud(out / "target.pcd", pair.target);
     writePose(out / "T_target_source.txt", pair.T_target_source);
-  }
-  catch (const std::exception& error) {
-    std::cerr << "pcl_flashreg_generate: " << error.what() << '\n';
-    return 3;
-  }
-  return 0;
+    return 0;
+  });
 }
