@@ -2,7 +2,7 @@
 // Copyright (c) the pcl_flashreg authors
 
 #include "cpu/kernels/kernels.h"
-#include "support/made_room.h"
+#include "support/point_rows.h"
 
 #include <pcl_flashreg/feature_extractor.h>
 
@@ -17,24 +17,8 @@
 namespace pcl_flashreg {
 namespace {
 
-using Points = std::vector<float>;
-
-Points
-room(double density = 400)
-{
-  const made::Room room(1, density, 0.003);
-  Points points;
-  for (const Eigen::Vector3d& p : room.points())
-    for (int axis = 0; axis < 3; ++axis)
-      points.push_back(static_cast<float>(p[axis]));
-  return points;
-}
-
-PointView
-viewOf(const Points& points)
-{
-  return {points.data(), points.size() / 3, 3};
-}
+using made::Points;
+using made::viewOf;
 
 DescribedCloud
 describe(const Points& points, double resolution, unsigned threads = 1)
@@ -108,7 +92,7 @@ protected:
 
 TEST_F(EveryVariant, AndNumberOfThreadsGivesTheSameBits)
 {
-  const Points points = room(3000); // more than one piece of the voxel grid
+  const Points points = made::roomPoints(3000); // more than one piece of the voxel grid
   const DescribedCloud reference = describe(points, 0.05);
   EXPECT_GT(reference.size, 5000u);
   forEachVariant([&] {
@@ -120,7 +104,7 @@ TEST_F(EveryVariant, AndNumberOfThreadsGivesTheSameBits)
 TEST_F(EveryVariant, OfASecondCallGivesTheSameBits)
 {
   FeatureExtractor extractor(2);
-  const Points large = room(800), small = room(100);
+  const Points large = made::roomPoints(800), small = made::roomPoints(100);
   const auto run = [&extractor](const Points& points) {
     return extractor.describe(viewOf(points), FeatureParameters::fromResolution(0.1));
   };
@@ -131,7 +115,7 @@ TEST_F(EveryVariant, OfASecondCallGivesTheSameBits)
 
 TEST(VoxelGrid, KeepsTheCentroidOfEachVoxelInOrder)
 {
-  const Points points = room(1000);
+  const Points points = made::roomPoints(1000);
   const auto expected = voxelOracle(points, 0.1f);
   const DescribedCloud result =
       FeatureExtractor(2).describe(viewOf(points), withVoxel(0.1, 1.0));
@@ -169,7 +153,7 @@ TEST(VoxelGrid, RefusesCoordinatesThatNoIntegerHolds)
 
 TEST(FeatureExtractor, WithoutVoxelsKeepsEveryPointInOrder)
 {
-  const Points points = room(100);
+  const Points points = made::roomPoints(100);
   const DescribedCloud result =
       FeatureExtractor(1).describe(viewOf(points), withVoxel(0, 1));
   EXPECT_EQ(result.points, points);
@@ -177,7 +161,7 @@ TEST(FeatureExtractor, WithoutVoxelsKeepsEveryPointInOrder)
 
 TEST(FeatureExtractor, SkipsPointsThatAreNotFinite)
 {
-  const Points points = room();
+  const Points points = made::roomPoints();
   Points spoiled = points;
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(),
                           std::numeric_limits<float>::infinity(),
@@ -193,20 +177,10 @@ TEST(FeatureExtractor, SkipsPointsThatAreNotFinite)
 
 TEST(FeatureExtractor, HonoursStrideAndIndices)
 {
-  const Points points = room();
-  Points wide, half;
-  std::vector<std::int32_t> indices;
-  for (std::size_t i = 0; i < points.size() / 3; ++i) {
-    wide.insert(wide.end(), &points[3 * i], &points[3 * i] + 3);
-    wide.insert(wide.end(), {7, std::numeric_limits<float>::quiet_NaN()});
-    if (i % 3 == 1) {
-      half.insert(half.end(), &points[3 * i], &points[3 * i] + 3);
-      indices.push_back(static_cast<std::int32_t>(i));
-    }
-  }
-  const PointView view{wide.data(), wide.size() / 5, 5, indices.data(), indices.size()};
-  expectSame(FeatureExtractor(1).describe(view, FeatureParameters::fromResolution(0.1)),
-             describe(half, 0.1));
+  const made::EveryThird some(made::roomPoints());
+  expectSame(
+      FeatureExtractor(1).describe(some.view(), FeatureParameters::fromResolution(0.1)),
+      describe(some.picked, 0.1));
 }
 
 TEST(FeatureExtractor, OfNothingIsNothing)
@@ -224,7 +198,7 @@ TEST(FeatureExtractor, OfNothingIsNothing)
 
 TEST(FeatureExtractor, RefusesWhatIsOutOfRange)
 {
-  const Points points = room(50);
+  const Points points = made::roomPoints(50);
   FeatureExtractor extractor(1);
   const auto refuses = [&](const PointView& view, const FeatureParameters& parameters) {
     EXPECT_THROW(extractor.describe(view, parameters), std::invalid_argument);
@@ -290,7 +264,7 @@ TEST(Normals, StandOnSurfacesAndPointToTheSensor)
 
 TEST(Descriptors, SumUpToAHundredAThird)
 {
-  const DescribedCloud result = describe(room(), 0.1);
+  const DescribedCloud result = describe(made::roomPoints(), 0.1);
   ASSERT_EQ(result.descriptors.size(), 33 * result.size);
   ASSERT_EQ(result.features().size, result.size);
   for (std::size_t i = 0; i < result.size; ++i)
@@ -304,7 +278,7 @@ TEST(Descriptors, DoNotChangeWithTheFrame)
 {
   // Without voxels, which are tied to the axes, a turned cloud has the same descriptors
   // but for pairs on the border of two bins.
-  const Points points = room(60);
+  const Points points = made::roomPoints(60);
   const Eigen::Isometry3f turn =
       Eigen::Translation3f(3, -2, 1) *
       Eigen::AngleAxisf(1.1f, Eigen::Vector3f(0.3f, -0.5f, 0.8f).normalized());

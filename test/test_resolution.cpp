@@ -2,7 +2,7 @@
 // Copyright (c) the pcl_flashreg authors
 
 #include "cpu/features/voxel_count.h"
-#include "support/made_room.h"
+#include "support/point_rows.h"
 
 #include <pcl_flashreg/resolution.h>
 
@@ -17,24 +17,8 @@
 namespace pcl_flashreg {
 namespace {
 
-using Points = std::vector<float>;
-
-Points
-room()
-{
-  const made::Room room(1, 400, 0.003);
-  Points points;
-  for (const Eigen::Vector3d& p : room.points())
-    for (int axis = 0; axis < 3; ++axis)
-      points.push_back(static_cast<float>(p[axis]));
-  return points;
-}
-
-PointView
-viewOf(const Points& points)
-{
-  return {points.data(), points.size() / 3, 3};
-}
+using made::Points;
+using made::viewOf;
 
 struct Box {
   std::array<double, 3> low, high;
@@ -92,12 +76,12 @@ expectCountsOf(const Points& points)
 
 TEST(VoxelCount, IsThatOfPlainGrids)
 {
-  expectCountsOf(room());
+  expectCountsOf(made::roomPoints());
 }
 
 TEST(VoxelCount, StraysMayStretchTheExtent)
 {
-  Points points = room();
+  Points points = made::roomPoints();
   const float most = std::numeric_limits<float>::max();
   for (const float far : {-most, most, 1e9f})
     points.insert(points.end(), {far, -far, far});
@@ -106,7 +90,7 @@ TEST(VoxelCount, StraysMayStretchTheExtent)
 
 TEST(VoxelCount, PlanesAndRepeatedValuesAreCloudsToo)
 {
-  Points plane = room();
+  Points plane = made::roomPoints();
   for (std::size_t i = 0; i < plane.size(); i += 3) {
     plane[i] = 7;
     plane[i + 1] = std::round(10 * plane[i + 1]) / 10;
@@ -116,26 +100,16 @@ TEST(VoxelCount, PlanesAndRepeatedValuesAreCloudsToo)
 
 TEST(EstimateResolution, UsesThePointsOfTheView)
 {
-  const Points points = room();
-  Points wide, half;
-  std::vector<std::int32_t> indices;
-  for (std::size_t i = 0; i < points.size() / 3; ++i) {
-    wide.insert(wide.end(), &points[3 * i], &points[3 * i] + 3);
-    wide.insert(wide.end(), {7, std::numeric_limits<float>::quiet_NaN()});
-    if (i % 3 == 1) {
-      half.insert(half.end(), &points[3 * i], &points[3 * i] + 3);
-      indices.push_back(static_cast<std::int32_t>(i));
-    }
-  }
-  const PointView view{wide.data(), wide.size() / 5, 5, indices.data(), indices.size()};
-  EXPECT_EQ(estimateResolution(view), estimateResolution(viewOf(half)));
-  EXPECT_EQ(estimateVoxelSize(view), estimateVoxelSize(viewOf(half)));
-  EXPECT_NE(estimateVoxelSize(view), estimateVoxelSize(viewOf(points)));
+  const Points points = made::roomPoints();
+  const made::EveryThird some(points);
+  EXPECT_EQ(estimateResolution(some.view()), estimateResolution(viewOf(some.picked)));
+  EXPECT_EQ(estimateVoxelSize(some.view()), estimateVoxelSize(viewOf(some.picked)));
+  EXPECT_NE(estimateVoxelSize(some.view()), estimateVoxelSize(viewOf(points)));
 }
 
 TEST(EstimateResolution, RefusesWhatIsOutOfRange)
 {
-  const Points points = room();
+  const Points points = made::roomPoints();
   const auto size = static_cast<std::int32_t>(points.size() / 3);
   for (const std::int32_t index : {-1, size}) {
     const PointView view{points.data(), points.size() / 3, 3, &index, 1};
