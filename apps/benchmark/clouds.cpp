@@ -6,6 +6,7 @@
 
 #include "../io/cloud_io.h"
 #include "../io/pcl_cloud.h"
+#include "../program/command_line.h"
 #include "provenance.h"
 #include "spread.h"
 
@@ -13,8 +14,6 @@
 
 #include <pcl/kdtree/impl/kdtree_flann.hpp>
 #include <pcl/kdtree/kdtree_flann.h>
-
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 
@@ -198,17 +197,9 @@ measureAndPrint(const Options& options)
   }
 }
 
-} // namespace
-} // namespace pcl_flashreg::benchmark
-
-int
-main(int argc, char** argv)
+void
+declareOptions(CLI::App& app, Options& options)
 {
-  using namespace pcl_flashreg;
-  CLI::App app{
-      "Times the way from two clouds to the pose, with the native front end and "
-      "with PCL's classes and FLANN beside it."};
-  benchmark::Options options;
   app.add_option("source", options.source, "cloud (.pcd, .ply, .bin)")->required();
   app.add_option("target", options.target, "cloud (.pcd, .ply, .bin)")->required();
   app.add_option("--leaf", options.leaf, "voxel size")
@@ -222,13 +213,23 @@ main(int argc, char** argv)
   app.add_option("--pcl-runs", options.pcl_runs, "runs of PCL's; 0 to leave it out")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
-    benchmark::measureAndPrint(options);
+}
+
+} // namespace
+} // namespace pcl_flashreg::benchmark
+
+int
+main(int argc, char** argv)
+{
+  using namespace pcl_flashreg;
+  return program::run("pcl_flashreg_cloud_benchmark", [&] {
+    CLI::App app{
+        "Times the way from two clouds to the pose, with the native front end and "
+        "with PCL's classes and FLANN beside it."};
+    benchmark::Options options;
+    benchmark::declareOptions(app, options);
+    if (program::parse(app, argc, argv))
+      benchmark::measureAndPrint(options);
     return 0;
-  }
-  catch (const std::exception& error) {
-    std::fprintf(stderr, "pcl_flashreg_cloud_benchmark: error: %s\n", error.what());
-    return 3;
-  }
+  });
 }

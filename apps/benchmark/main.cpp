@@ -3,8 +3,8 @@
 
 // pcl_flashreg_benchmark: times the way from correspondences to the pose, stage by stage.
 
-#include "../io/error.h"
 #include "../io/file.h"
+#include "../program/command_line.h"
 #include "provenance.h"
 #include "problems.h"
 #include "preparation.h"
@@ -107,38 +107,20 @@ run(Options options)
     io::writeFile(options.json, toJson(setting, options, figures));
 }
 
-int
-fail(int status, const char* message)
-{
-  std::fprintf(stderr, "pcl_flashreg_benchmark: error: %s\n", message);
-  return status;
-}
-
-int
-parseAndRun(int argc, char** argv)
-{
-  CLI::App app{"Times the estimation from correspondences to pose, stage by stage.\n"
-               "The environment variable PCL_FLASHREG_CPU forces a SIMD variant."};
-  Options options;
-  declareOptions(app, options);
-  try {
-    app.parse(argc, argv);
-    run(std::move(options));
-    return 0;
-  }
-  catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? app.exit(error) : fail(2, error.what());
-  }
-  catch (const std::exception& error) {
-    return fail(3, error.what());
-  }
-}
-
 } // namespace
 } // namespace pcl_flashreg::benchmark
 
 int
 main(int argc, char** argv)
 {
-  return pcl_flashreg::benchmark::parseAndRun(argc, argv);
+  using namespace pcl_flashreg;
+  return program::run("pcl_flashreg_benchmark", [&] {
+    CLI::App app{"Times the estimation from correspondences to pose, stage by stage.\n"
+                 "The environment variable PCL_FLASHREG_CPU forces a SIMD variant."};
+    benchmark::Options options;
+    benchmark::declareOptions(app, options);
+    if (program::parse(app, argc, argv))
+      benchmark::run(std::move(options));
+    return 0;
+  });
 }
