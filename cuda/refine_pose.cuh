@@ -15,7 +15,10 @@ namespace cuda {
 
 /** \brief The 16 sums of an alignment are those of (1, s) times (1, t): a warp each. */
 constexpr unsigned ALIGNMENT_SUMS = 16;
-constexpr unsigned REFINE_THREADS = ALIGNMENT_SUMS * WARP;
+constexpr unsigned REFINE_WARPS = ALIGNMENT_SUMS;
+constexpr unsigned REFINE_THREADS = REFINE_WARPS * WARP;
+/** \brief Words of inliers that a warp works on at a time. */
+constexpr unsigned AHEAD = 4;
 static_assert(ALIGNMENT_LANES == WARP, "a lane of the warp is a lane of the sums");
 
 struct RefineShared {
@@ -43,6 +46,29 @@ pairOf(const Call& call, unsigned i)
   return {call.sx[i], call.sy[i], call.sz[i], call.tx[i], call.ty[i], call.tz[i]};
 }
 
+/** \brief Fills every REFINE_WARPS-th word of the inliers from the first on, AHEAD of them, a
+ * warp's share of a step. All coordinates are on their way before the first is waited for:
+ * nothing else hides how long that takes. */
+__device__ inline void
+findWords(const Call& call, const SlotPose& pose, unsigned first, unsigned* inliers)
+{
+  PointPair pairs[AHEAD];
+#pragma unroll
+  for (unsigned k = 0; k < AHEAD; ++k) {
+    const unsigned w = min(first + k * REFINE_WARPS, call.words - 1);
+    pairs[k] = pairOf(call, w * WARP + laneIndex());
+  }
+#pragma unroll
+  for (unsigned k = 0; k < AHEAD; ++k) {
+    const bool inlier =
+        isInlier(pose.pose, pose.bounds, call.inlier_distance, pairs[k]);
+    const unsigned word = __ballot_sync(ALL_LANES, inlier);
+    const unsigned w = first + k * REFINE_WARPS;
+    if (laneIndex() == 0 && w < call.words)
+      inliers[w] = word;
+  }
+}
+
 /** \brief Finds the inliers of the pose at hand and lists them, ascending.
  * \return their number */
 __device__ inline unsigned
@@ -54,20 +80,11 @@ findInliers(const Call& call, unsigned* list, RefineShared& shared)
         residualBounds(shared.single.pose, call.radius, call.inlier_distance);
   }
   __syncthreads();
-  const SlotPose single = shared.single;
-  unsigned* inliers = shared.inliers();
-#pragma unroll 2
-  for (unsigned w = warpIndex(); w < call.words; w += REFINE_THREADS / WARP) {
-    const bool inlier = isInlier(single.pose,
-                                 single.bounds,
-                                 call.inlier_distance,
-                                 pairOf(call, w * WARP + laneIndex()));
-    const unsigned word = __ballot_sync(ALL_LANES, inlier);
-    if (laneIndex() == 0)
-      inliers[w] = word;
-  }
+  for (unsigned first = warpIndex(); first < call.words; first += AHEAD * REFINE_WARPS)
+    findWords(call, shared.single, first, shared.inliers());
   __syncthreads();
 
+  const unsigned* inliers = shared.inliers();
   const unsigned run = (call.words + REFINE_THREADS - 1) / REFINE_THREADS;
   const unsigned begin = min(call.words, threadIdx.x * run);
   const unsigned end = min(call.words, begin + run);

@@ -44,19 +44,31 @@ explained(const Call& call, unsigned slot, unsigned listed)
   return false;
 }
 
+/** \brief Scores that a thread reads at a time; the usual call has eight a thread. */
+constexpr unsigned SCORES_AHEAD = 8;
+
 /** \brief The best of this thread's slots that ranks below `limit` and that no listed pose
  * explains; 0 if there is none. */
 __device__ inline unsigned long long
 bestBelow(const Call& call, unsigned long long limit, unsigned listed)
 {
   unsigned long long best = 0;
-  for (unsigned slot = threadIdx.x; slot < call.slots; slot += REFINE_THREADS) {
-    const long long score = call.scores[slot];
-    if (score < 0)
-      continue;
-    const unsigned long long rank = rankOf(score, slot);
-    if (rank < limit && rank > best && !explained(call, slot, listed))
-      best = rank;
+  for (unsigned first = threadIdx.x; first < call.slots;
+       first += SCORES_AHEAD * REFINE_THREADS) {
+    // All of them on their way before the first is waited for.
+    long long scores[SCORES_AHEAD];
+#pragma unroll
+    for (unsigned k = 0; k < SCORES_AHEAD; ++k) {
+      const unsigned slot = first + k * REFINE_THREADS;
+      scores[k] = slot < call.slots ? call.scores[slot] : -1;
+    }
+#pragma unroll
+    for (unsigned k = 0; k < SCORES_AHEAD; ++k) {
+      const unsigned slot = first + k * REFINE_THREADS;
+      const unsigned long long rank = scores[k] < 0 ? 0 : rankOf(scores[k], slot);
+      if (rank < limit && rank > best && !explained(call, slot, listed))
+        best = rank;
+    }
   }
   return best;
 }

@@ -10,6 +10,7 @@
 #include "provenance.h"
 #include "spread.h"
 
+#include <pcl_flashreg/estimator.h>
 #include <pcl_flashreg/pcl_front_end.h>
 
 #include <pcl/kdtree/impl/kdtree_flann.hpp>
