@@ -119,16 +119,32 @@ struct alignas(16) ScoreShared {
   }
 };
 
-/** \brief Neighbours that v shares with the row in shared memory; a warp an edge. */
+/** \brief Columns of a list that a lane looks up at a time. */
+constexpr unsigned AHEAD = 4;
+
+/** \brief Neighbours that v shares with the row in shared memory; a warp an edge.
+ * \param[in] absent a column whose bit is not set: the row's own */
 __device__ inline unsigned
-countShared(
-    const Call& call, const unsigned* bits, unsigned v, unsigned begin, unsigned degree)
+countShared(const Call& call,
+            const unsigned* bits,
+            unsigned absent,
+            unsigned v,
+            unsigned begin,
+            unsigned degree)
 {
   unsigned count = 0;
   if (2 * degree < call.words)
-    for (unsigned i = laneIndex(); i < degree; i += WARP) {
-      const unsigned k = call.neighbours[begin + i];
-      count += (bits[k / WARP] >> (k % WARP)) & 1;
+    for (unsigned first = laneIndex(); first < degree; first += AHEAD * WARP) {
+      // All of them on their way before the first is waited for.
+      unsigned columns[AHEAD];
+#pragma unroll
+      for (unsigned j = 0; j < AHEAD; ++j) {
+        const unsigned i = first + j * WARP;
+        columns[j] = i < degree ? call.neighbours[begin + i] : absent;
+      }
+#pragma unroll
+      for (unsigned j = 0; j < AHEAD; ++j)
+        count += (bits[columns[j] / WARP] >> (columns[j] % WARP)) & 1;
     }
   else {
     const auto* row = reinterpret_cast<const uint4*>(
@@ -145,7 +161,7 @@ countShared(
 
 /** \brief Scores row u's edges, dealt out to the warps one by one. */
 __device__ inline void
-scoreRow(const Call& call, const Neighbours& row, ScoreShared& shared)
+scoreRow(const Call& call, unsigned u, const Neighbours& row, ScoreShared& shared)
 {
   const unsigned lane = laneIndex();
   const unsigned* columns = call.neighbours + row.begin + row.degree - row.above;
@@ -160,6 +176,7 @@ scoreRow(const Call& call, const Neighbours& row, ScoreShared& shared)
     for (unsigned i = 0; i < edges; ++i) {
       const unsigned count = countShared(call,
                                          shared.bits(),
+                                         u,
                                          __shfl_sync(ALL_LANES, v, i),
                                          __shfl_sync(ALL_LANES, other.begin, i),
                                          __shfl_sync(ALL_LANES, other.degree, i));
@@ -198,7 +215,7 @@ __launch_bounds__(SCORE_WARPS* WARP) scoreRows(const Call call)
   if (threadIdx.x == 0)
     shared.best = 0;
   __syncthreads();
-  scoreRow(call, row, shared);
+  scoreRow(call, u, row, shared);
   __syncthreads();
   const unsigned best = shared.best;
   for (unsigned i = threadIdx.x; i < SHARED_BINS && i <= best; i += blockDim.x)
