@@ -29,6 +29,8 @@ constexpr unsigned THREADS = 128;
 constexpr unsigned WARPS = THREADS / WARP;
 /** \brief Candidates that are gathered at a time: one a thread. */
 constexpr unsigned GATHERED = THREADS;
+/** \brief Words of a candidate's row that a lane fetches at a time. */
+constexpr unsigned AHEAD = 4;
 
 struct Shared {
   BlockScratch scratch;
@@ -142,12 +144,24 @@ __device__ inline void
 countVotes(const Call& call, const Layout& memory)
 {
   Shared& shared = *memory.shared;
+  const unsigned voter_words = shared.voter_words;
   for (unsigned c = warpIndex(); c < shared.gathered; c += WARPS) {
     const unsigned* row =
         call.graph + static_cast<std::size_t>(shared.columns[c]) * call.words;
     unsigned count = 0;
-    for (unsigned w = laneIndex(); w < shared.voter_words; w += WARP)
-      count += __popc(memory.voters[w] & row[w]);
+    for (unsigned first = laneIndex(); first < voter_words; first += AHEAD * WARP) {
+      // All of them on their way before the first is waited for.
+      unsigned words[AHEAD];
+#pragma unroll
+      for (unsigned j = 0; j < AHEAD; ++j) {
+        const unsigned w = first + j * WARP;
+        words[j] = w < voter_words ? row[w] : 0;
+      }
+#pragma unroll
+      for (unsigned j = 0; j < AHEAD; ++j)
+        if (words[j] != 0)
+          count += __popc(memory.voters[first + j * WARP] & words[j]);
+    }
     count = warpSum(count);
     if (laneIndex() == 0)
       shared.votes[c] = count;
