@@ -5,33 +5,16 @@
 // noise bound is the voxel size.
 
 #include "families.h"
+#include "silence.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <teaser/registration.h>
 
-#include <iostream>
-
 namespace pcl_flashreg::evaluate {
 namespace {
 
 using Points = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-
-/** \brief Its search for cliques talks on standard output, where our results go. */
-class Silence {
-public:
-  Silence() : before_(std::cout.rdbuf(nullptr)) {}
-  ~Silence()
-  {
-    std::cout.rdbuf(before_);
-  }
-  Silence(const Silence&) = delete;
-  Silence&
-  operator=(const Silence&) = delete;
-
-private:
-  std::streambuf* before_;
-};
 
 Answer
 runTeaser(double leaf, const Correspondences& given)
@@ -49,7 +32,7 @@ runTeaser(double leaf, const Correspondences& given)
   const Points source = Eigen::Map<const Points>(given.source.data(), 3, n);
   const Points target = Eigen::Map<const Points>(given.target.data(), 3, n);
 
-  const Silence silence;
+  const Silence silence; // its search for cliques talks
   const detail::Stopwatch estimation;
   teaser::RobustRegistrationSolver solver(params);
   const teaser::RegistrationSolution solution = solver.solve(source, target);
