@@ -25,4 +25,7 @@ open3dMethods();
 std::vector<MethodEntry>
 teaserMethods();
 
+std::vector<MethodEntry>
+kissMatcherMethods();
+
 } // namespace pcl_flashreg::evaluate

@@ -58,7 +58,8 @@ struct MethodEntry {
   std::string description;
   /** \brief Correspondences alone don't do. */
   bool needs_clouds = false;
-  /** \throws BackendError if this machine cannot run it */
+  /** \throws BackendError if this machine cannot run it
+   * \throws std::invalid_argument if it cannot work with the settings */
   std::function<Method(const MethodSettings&)> make;
 };
 

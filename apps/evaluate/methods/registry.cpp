@@ -24,6 +24,9 @@ methods()
 #ifdef PCL_FLASHREG_WITH_TEASER
              teaserMethods(),
 #endif
+#ifdef PCL_FLASHREG_WITH_KISS_MATCHER
+             kissMatcherMethods(),
+#endif
          })
       entries.insert(entries.end(), family.begin(), family.end());
     return entries;

@@ -12,6 +12,8 @@
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
+#include <stdexcept>
+
 namespace pcl_flashreg::evaluate {
 namespace {
 
@@ -29,7 +31,12 @@ makeMethods(const Options& options, const Job& job)
   const MethodSettings settings{job.parameters, job.data.leaf, options.threads};
   std::vector<NamedMethod> made;
   for (const std::string& name : options.methods)
-    made.push_back({name, findMethod(name)->make(settings)});
+    try {
+      made.push_back({name, findMethod(name)->make(settings)});
+    }
+    catch (const std::invalid_argument& error) {
+      throw UsageError("--method: " + name + ": " + error.what());
+    }
   return made;
 }
 
