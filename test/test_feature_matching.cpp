@@ -2,7 +2,7 @@
 // Copyright (c) the pcl_flashreg authors
 
 #include "cpu/kernels/kernels.h"
-#include "support/made_correspondences.h"
+#include "support/made_features.h"
 
 #include <pcl_flashreg/feature_matching.h>
 
@@ -15,28 +15,8 @@
 namespace pcl_flashreg {
 namespace {
 
-struct Features {
-  std::vector<float> values;
-  std::size_t dimension, stride;
-
-  FeatureView
-  view() const
-  {
-    return {values.data(), values.size() / stride, dimension, stride};
-  }
-};
-
-Features
-makeFeatures(std::size_t size, std::size_t dimension, std::size_t stride, int seed)
-{
-  made::Random random(seed);
-  Features features{{}, dimension, stride};
-  for (std::size_t i = 0; i < size * stride; ++i) {
-    const double value = random.uniform(-20, 80);
-    features.values.push_back(value < 0 ? 0.0f : static_cast<float>(value));
-  }
-  return features;
-}
+using made::Features;
+using made::scattered;
 
 /** \brief All distances in double, sorted. */
 std::vector<FeatureMatch>
@@ -96,8 +76,8 @@ TEST_P(Matching, EqualsExhaustiveSearchInDouble)
 {
   for (const std::size_t dimension : {1, 3, 33, 125})
     for (const std::size_t k : {1, 2, 7}) {
-      const Features queries = makeFeatures(130, dimension, dimension, 1);
-      const Features targets = makeFeatures(517, dimension, dimension + 2, 2);
+      const Features queries = scattered(130, dimension, dimension, 1);
+      const Features targets = scattered(517, dimension, dimension + 2, 2);
       expectSame(matchFeatures(queries.view(), targets.view(), k, 2),
                  exhaustive(queries.view(), targets.view(), k));
     }
@@ -107,8 +87,8 @@ TEST_P(Matching, InBothDirectionsEqualsTwoSearches)
 {
   for (const std::size_t size : {1, 40, 517})
     for (const std::size_t k : {1, 2, 60}) {
-      const Features queries = makeFeatures(300, 33, 33, 11);
-      Features targets = makeFeatures(size, 33, 35, 12);
+      const Features queries = scattered(300, 33, 33, 11);
+      Features targets = scattered(size, 33, 35, 12);
       targets.values[0] = std::numeric_limits<float>::quiet_NaN();
       for (const unsigned threads : {1u, 3u}) {
         const MutualMatches both =
@@ -125,9 +105,76 @@ TEST_P(Matching, InBothDirectionsEqualsTwoSearches)
     }
 }
 
+/** \brief Both directions, one and five matches, on one thread and on three. */
+void
+expectExact(const Features& queries, const Features& targets)
+{
+  for (const std::size_t k : {1, 5}) {
+    const std::vector<FeatureMatch> forward =
+        exhaustive(queries.view(), targets.view(), k);
+    const std::vector<FeatureMatch> backward =
+        exhaustive(targets.view(), queries.view(), k);
+    for (const unsigned threads : {1u, 3u}) {
+      const MutualMatches both =
+          matchFeaturesBothWays(queries.view(), targets.view(), k, threads);
+      expectSame(both.forward, forward);
+      expectSame(both.backward, backward);
+    }
+  }
+}
+
+TEST_P(Matching, LeavesNothingOutWhereMostIsFar)
+{
+  for (const double noise : {0.0, 0.1, 3.0}) {
+    Features targets = made::onSurface(900, 33, noise, 21);
+    std::copy_n(targets.values.begin(), 100 * 33, targets.values.end() - 100 * 33);
+    targets.values[500 * 33 + 7] = std::numeric_limits<float>::quiet_NaN();
+    expectExact(made::onSurface(300, 33, noise, 22), targets);
+  }
+}
+
+TEST_P(Matching, TakesOutliers)
+{
+  Features queries = made::onSurface(200, 33, 0.1, 23);
+  Features targets = made::onSurface(300, 33, 0.1, 24);
+  queries.values[0] = 1e9f;
+  targets.values[40 * 33 + 2] = -1e12f;
+  expectExact(queries, targets);
+}
+
+TEST_P(Matching, TakesAnyWidth)
+{
+  for (const std::size_t dimension : {1, 2, 4, 8, 352})
+    expectExact(made::onSurface(70, dimension, 0.1, 25),
+                made::onSurface(200, dimension, 0.1, 26));
+}
+
+TEST_P(Matching, TakesAnyMagnitude)
+{
+  const Features queries = made::onSurface(100, 33, 0.1, 27);
+  const Features targets = made::onSurface(200, 33, 0.1, 28);
+  for (const double factor : {1e-30, 1e-12, 1e17, 1e30})
+    expectExact(made::moved(queries, factor, 0), made::moved(targets, factor, 0));
+  expectExact(made::moved(queries, 1, 1e6), made::moved(targets, 1, 1e6));
+}
+
+TEST_P(Matching, TakesDescriptorsThatAreAllAlike)
+{
+  for (const float value : {0.0f, 3.0f}) {
+    const Features alike{std::vector<float>(100 * 33, value), 33, 33};
+    const std::vector<FeatureMatch> matches =
+        matchFeatures(alike.view(), alike.view(), 40, 2);
+    ASSERT_EQ(matches.size(), 4000u);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      ASSERT_EQ(matches[i].match, static_cast<std::int32_t>(i % 40));
+      ASSERT_EQ(matches[i].squared_distance, 0);
+    }
+  }
+}
+
 TEST_P(Matching, TiesGoToTheSmallerIndex)
 {
-  Features targets = makeFeatures(100, 33, 33, 3);
+  Features targets = scattered(100, 33, 33, 3);
   for (std::size_t copy : {20u, 50u, 99u})
     std::copy_n(
         targets.values.begin() + 7 * 33, 33, targets.values.begin() + copy * 33);
@@ -143,7 +190,7 @@ TEST_P(Matching, TiesGoToTheSmallerIndex)
 
 TEST_P(Matching, SkipsDescriptorsThatAreNotFinite)
 {
-  Features queries = makeFeatures(20, 33, 33, 4), targets = makeFeatures(40, 33, 33, 5);
+  Features queries = scattered(20, 33, 33, 4), targets = scattered(40, 33, 33, 5);
   queries.values[3 * 33 + 5] = std::numeric_limits<float>::quiet_NaN();
   targets.values[8 * 33] = std::numeric_limits<float>::infinity();
   targets.values[9 * 33 + 32] = std::numeric_limits<float>::quiet_NaN();
@@ -172,14 +219,23 @@ INSTANTIATE_TEST_SUITE_P(Variants, Matching, testing::ValuesIn(variants()));
 
 TEST(MatchingInput, EmptyGivesNothing)
 {
-  const Features some = makeFeatures(5, 33, 33, 6);
+  const Features some = scattered(5, 33, 33, 6);
   EXPECT_TRUE(matchFeatures({}, some.view()).empty());
   EXPECT_TRUE(matchFeatures(some.view(), {}).empty());
 }
 
+TEST(MatchingInput, WithoutAFiniteDescriptorGivesNothing)
+{
+  const Features some = scattered(5, 33, 33, 6);
+  const Features none{
+      std::vector<float>(3 * 33, std::numeric_limits<float>::quiet_NaN()), 33, 33};
+  EXPECT_TRUE(matchFeatures(none.view(), some.view()).empty());
+  EXPECT_TRUE(matchFeatures(some.view(), none.view()).empty());
+}
+
 TEST(MatchingInput, RefusesWhatMakesNoSense)
 {
-  const Features a = makeFeatures(5, 33, 33, 7), b = makeFeatures(5, 32, 32, 8);
+  const Features a = scattered(5, 33, 33, 7), b = scattered(5, 32, 32, 8);
   EXPECT_THROW(matchFeatures(a.view(), b.view()), std::invalid_argument);
   EXPECT_THROW(matchFeatures(a.view(), a.view(), 0), std::invalid_argument);
   FeatureView overlapping = a.view();
@@ -195,8 +251,8 @@ TEST(FeatureMatcher, OneObjectMatchesWhateverComes)
   FeatureMatcher matcher(2);
   for (const std::size_t dimension : {33, 8, 33})
     for (const std::size_t size : {1, 300, 40}) {
-      const Features queries = makeFeatures(size, dimension, dimension, 1);
-      const Features targets = makeFeatures(250, dimension, dimension + 3, 2);
+      const Features queries = scattered(size, dimension, dimension, 1);
+      const Features targets = scattered(250, dimension, dimension + 3, 2);
       const MutualMatches both = matcher.matchBothWays(queries.view(), targets.view());
       expectSame(matcher.match(queries.view(), targets.view(), 3),
                  exhaustive(queries.view(), targets.view(), 3));

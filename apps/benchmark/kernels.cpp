@@ -131,17 +131,15 @@ void
 featureCandidates(benchmark::State& state, const Kernels* kernels)
 {
   constexpr std::size_t BLOCKS = 64, DIMENSION = 33;
-  AlignedBuffer<float> targets, norms, limits, queries;
+  AlignedBuffer<float> targets, norms, queries;
   fill(targets, BLOCKS * DIMENSION * cpu::FEATURE_BLOCK, 1);
   fill(norms, BLOCKS * cpu::FEATURE_BLOCK, 2);
   fill(queries, cpu::QUERY_BLOCK * DIMENSION, 3);
-  constexpr float NONE = -std::numeric_limits<float>::infinity();
-  limits.resize(BLOCKS * cpu::FEATURE_BLOCK);
-  std::fill(limits.begin(), limits.end(), NONE);
-  const std::vector<float> thresholds(cpu::QUERY_BLOCK, NONE);
+  const std::vector<float> thresholds(cpu::QUERY_BLOCK,
+                                      -std::numeric_limits<float>::infinity());
   std::uint32_t candidates[cpu::QUERY_BLOCK];
-  const cpu::FeatureBlock input{targets.data(), norms.data(), limits.data(), DIMENSION};
-  const cpu::QueryRows rows{queries.data(), norms.data(), thresholds.data()};
+  const cpu::FeatureBlock input{targets.data(), norms.data(), DIMENSION};
+  const cpu::QueryRows rows{queries.data(), thresholds.data()};
   std::size_t block = 0;
   for (auto _ : state) {
     kernels->featureCandidates(input, block, rows, candidates);

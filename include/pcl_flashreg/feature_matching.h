@@ -45,10 +45,12 @@ struct MutualMatches {
   mutual() const;
 };
 
-/** \brief Nearest neighbours among descriptors, by exhaustive search.
+/** \brief Nearest neighbours among descriptors: those of an exhaustive search in double
+ * precision.
  *
- * The same on every SIMD variant and number of threads. Keeps its threads from call to
- * call; an object is not to be used by two threads at a time.
+ * The same on every SIMD variant and number of threads. Memory grows with the number of
+ * descriptors. Keeps its threads from call to call; an object is not to be used by two
+ * threads at a time.
  */
 class PCL_FLASHREG_EXPORT FeatureMatcher {
 public:
@@ -72,7 +74,7 @@ public:
   std::vector<FeatureMatch>
   match(const FeatureView& queries, const FeatureView& targets, std::size_t k = 1);
 
-  /** \brief match() in both directions in one pass over the pairs. With k = 2 the two
+  /** \brief match() in both directions, which share their preparation. With k = 2 the two
    * rows of a query are what a ratio test compares.
    * \throws std::invalid_argument as match()
    */

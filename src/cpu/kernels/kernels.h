@@ -47,11 +47,8 @@ struct FeatureBlock {
   /** \brief Targets, 32 at a time: block b holds dimension d of target 32 b + i at
    * [(b * dimension + d) * 32 + i]; 64-byte aligned. */
   const float* targets;
-  /** \brief Squared norm of every target; infinite for padding and invalid ones. */
+  /** \brief Squared norm of every target; infinite for padding. */
   const float* target_norms;
-  /** \brief For every target, the squared distance below which a query is a candidate for
-   * it; minus infinity if none is. */
-  const float* target_limits;
   std::size_t dimension;
 };
 
@@ -59,9 +56,8 @@ struct FeatureBlock {
 struct QueryRows {
   /** \brief Rows of `dimension` floats. */
   const float* values;
-  /** \brief Squared norms. */
-  const float* norms;
-  /** \brief |t|^2 - 2 q.t below which a target is a candidate for the query. */
+  /** \brief |t|^2 - 2 q.t below which a target is a candidate for the query; minus
+   * infinity if none is. */
   const float* thresholds;
 };
 
@@ -148,7 +144,7 @@ struct Kernels {
                        std::uint64_t* possible);
 
   /** \brief Bit i of candidates[q]: |t|^2 - 2 q.t of target 32 * block + i is below the
-   * query's threshold, or |q|^2 more than that below the target's limit. */
+   * query's threshold. */
   void (*featureCandidates)(const FeatureBlock& input,
                             std::size_t block,
                             const QueryRows& queries,

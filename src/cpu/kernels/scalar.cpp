@@ -195,7 +195,6 @@ featureCandidates(const FeatureBlock& in,
 {
   const float* targets = in.targets + block * in.dimension * FEATURE_BLOCK;
   const float* norms = in.target_norms + block * FEATURE_BLOCK;
-  const float* limits = in.target_limits + block * FEATURE_BLOCK;
   for (std::size_t q = 0; q < QUERY_BLOCK; ++q) {
     float products[FEATURE_BLOCK] = {};
     for (std::size_t d = 0; d < in.dimension; ++d)
@@ -205,9 +204,8 @@ featureCandidates(const FeatureBlock& in,
     candidates[q] = 0;
     for (std::size_t i = 0; i < FEATURE_BLOCK; ++i) {
       const float distance = norms[i] - 2.0f * products[i];
-      const bool is_candidate =
-          distance < queries.thresholds[q] || distance + queries.norms[q] < limits[i];
-      candidates[q] |= static_cast<std::uint32_t>(is_candidate) << i;
+      candidates[q] |= static_cast<std::uint32_t>(distance < queries.thresholds[q])
+                       << i;
     }
   }
 }

@@ -122,7 +122,6 @@ featureCandidatesSimd(const FeatureBlock& in,
   constexpr std::size_t GROUPS = V::FEATURE_GROUPS;
   const float* targets = in.targets + block * in.dimension * FEATURE_BLOCK;
   const float* norms = in.target_norms + block * FEATURE_BLOCK;
-  const float* limits = in.target_limits + block * FEATURE_BLOCK;
   const Float minus_two = V::broadcast(-2.0f);
   for (std::size_t q = 0; q < QUERY_BLOCK; ++q)
     candidates[q] = 0;
@@ -147,13 +146,9 @@ featureCandidatesSimd(const FeatureBlock& in,
         for (std::size_t g = 0; g < GROUPS; ++g) {
           const Float norm = V::load(norms + (group + g) * V::WIDTH);
           const Float distance = V::fma(minus_two, products[q][g], norm);
-          const Float whole = V::add(distance, V::broadcast(queries.norms[first + q]));
-          const Float limit = V::load(limits + (group + g) * V::WIDTH);
-          const auto forward =
+          const auto near =
               V::less(distance, V::broadcast(queries.thresholds[first + q]));
-          const auto backward = V::less(whole, limit);
-          candidates[first + q] |= (V::bits(forward) | V::bits(backward))
-                                   << ((group + g) * V::WIDTH);
+          candidates[first + q] |= V::bits(near) << ((group + g) * V::WIDTH);
         }
     }
 }

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/feature_matching.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief The descriptors of a set that are finite. */
+struct FiniteFeatures {
+  FeatureView view;
+  /** \brief Their rows in the view, ascending. */
+  std::vector<std::int32_t> rows;
+  /** \brief The largest absolute value in them. */
+  float largest = 0;
+
+  explicit FiniteFeatures(const FeatureView& features);
+
+  std::size_t
+  size() const
+  {
+    return rows.size();
+  }
+
+  const float*
+  operator[](std::size_t i) const
+  {
+    return view.data + static_cast<std::size_t>(rows[i]) * view.stride;
+  }
+};
+
+/** \brief What is left of a descriptor in four dimensions. */
+using Shadow = Eigen::Array4f;
+
+/** \brief The space of the descriptors of a search, centred on the targets' mean and scaled
+ * by a power of two, so that no value is large, and the shadows that they cast: the first
+ * three principal components of the targets, and the length of what is orthogonal to
+ * these. Shadows are never farther from each other than what casts them.
+ */
+class FeatureSpace {
+public:
+  FeatureSpace(const FiniteFeatures& queries, const FiniteFeatures& targets);
+
+  std::size_t
+  dimension() const
+  {
+    return static_cast<std::size_t>(mean_.size());
+  }
+
+  /** \brief What every value is multiplied by. */
+  double
+  scale() const
+  {
+    return scale_;
+  }
+
+  /** \brief Centred and scaled values of a descriptor; `dimension` of them. */
+  void
+  centre(const float* descriptor, float* centred) const;
+
+  /** \brief Shadows of descriptors [begin, end). */
+  void
+  cast(const FiniteFeatures& features,
+       std::size_t begin,
+       std::size_t end,
+       Shadow* shadows) const;
+
+  /** \brief By rounding, shadows may be this much farther from each other than what casts
+   * them, times the sum of both centred lengths. */
+  double
+  slack() const;
+
+private:
+  Eigen::RowVectorXd mean_;
+  /** \brief Orthonormal columns. */
+  Eigen::MatrixXd components_;
+  double scale_ = 1;
+};
+
+} // namespace pcl_flashreg
