@@ -27,8 +27,7 @@ using cpu::QUERY_BLOCK;
 constexpr std::size_t GROUPS_A_TASK = 8;
 /** \brief Blocks of targets that a task transposes. */
 constexpr std::size_t BLOCKS_A_TASK = 8;
-/** \brief Covers whatever underflows: values are scaled, and a float's least is far below
- * their rounding, but not below zero. */
+/** \brief Covers what underflows in single precision: squares of values near zero. */
 constexpr double UNDERFLOW_ERROR = std::numeric_limits<float>::min();
 
 double
@@ -117,12 +116,13 @@ public:
               const FeatureSet& targets,
               const TargetBlocks& blocks,
               const FeatureSpace& space,
-              std::size_t k)
+              std::size_t k,
+              const cpu::Kernels& kernels)
       : queries_(queries),
         targets_(targets),
         blocks_(blocks),
         space_(space),
-        kernels_(cpu::selectKernels()),
+        kernels_(kernels),
         slack_(space.slack()),
         values_(QUERY_BLOCK * space.dimension()),
         lists_(QUERY_BLOCK, k)
@@ -154,13 +154,12 @@ private:
   void
   begin(std::size_t first, std::size_t last)
   {
-    std::vector<std::int32_t>& seeds = seeds_;
-    seeds.clear();
+    seeds_.clear();
     for (std::size_t q = 0; q < count_; ++q)
       for (const Candidate* match = lists_.begin(q); match != lists_.end(q); ++match)
-        seeds.push_back(match->index);
-    std::sort(seeds.begin(), seeds.end());
-    seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
+        seeds_.push_back(match->index);
+    std::sort(seeds_.begin(), seeds_.end());
+    seeds_.erase(std::unique(seeds_.begin(), seeds_.end()), seeds_.end());
 
     count_ = last - first;
     box_ = queries_.tree.bounds(first, last);
@@ -171,7 +170,7 @@ private:
     // guess, and spares many an offer.
     for (std::size_t q = 0; q < count_; ++q) {
       take(q, static_cast<std::size_t>(queries_.tree.order[first + q]));
-      for (const std::int32_t seed : seeds)
+      for (const std::int32_t seed : seeds_)
         offer(q, seed);
     }
     updateReach();
@@ -287,6 +286,7 @@ searchNearest(const FeatureSet& queries,
               std::size_t k,
               cpu::ThreadPool& pool)
 {
+  const cpu::Kernels& kernels = cpu::selectKernels();
   const TargetBlocks blocks(targets, space, pool);
   const std::size_t size = queries.features.size();
   const std::size_t length = std::min(k, targets.features.size());
@@ -303,7 +303,7 @@ searchNearest(const FeatureSet& queries,
   pool.forEach((size + TASK - 1) / TASK, [&](std::size_t task, std::size_t thread) {
     std::optional<GroupSearch>& search = searches[thread];
     if (!search)
-      search.emplace(queries, targets, blocks, space, length);
+      search.emplace(queries, targets, blocks, space, length, kernels);
     const std::size_t end = std::min(size, (task + 1) * TASK);
     for (std::size_t first = task * TASK; first < end; first += QUERY_BLOCK) {
       const std::size_t last = std::min(end, first + QUERY_BLOCK);

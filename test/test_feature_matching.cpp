@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 
@@ -140,6 +141,20 @@ TEST_P(Matching, TakesOutliers)
   queries.values[0] = 1e9f;
   targets.values[40 * 33 + 2] = -1e12f;
   expectExact(queries, targets);
+}
+
+/** \brief Neighbours a few roundings from each other, far from the mean of all. */
+TEST_P(Matching, TakesTightClusters)
+{
+  made::Random random(29);
+  Features sides[2] = {{{}, 3, 3}, {{}, 3, 3}};
+  for (int i = 0; i < 900; ++i)
+    for (int d = 0; d < 3; ++d) {
+      const double step = std::floor(random.uniform(0, 12)) / 1024;
+      sides[i % 3 == 0].values.push_back(
+          static_cast<float>((i % 2 == 0 ? 1e4 : -1e4) + step));
+    }
+  expectExact(sides[1], sides[0]);
 }
 
 TEST_P(Matching, TakesAnyWidth)
