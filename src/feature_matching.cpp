@@ -4,9 +4,9 @@
 #include <pcl_flashreg/feature_matching.h>
 
 #include "cpu/thread_pool.h"
-#include "feature_search.h"
-#include "feature_space.h"
-#include "feature_tree.h"
+#include "matching/feature_search.h"
+#include "matching/feature_space.h"
+#include "matching/feature_tree.h"
 
 #include <algorithm>
 #include <array>

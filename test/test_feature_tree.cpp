@@ -2,7 +2,7 @@
 // Copyright (c) the pcl_flashreg authors
 
 #include "cpu/kernels/kernels.h"
-#include "feature_tree.h"
+#include "matching/feature_tree.h"
 #include "support/made_features.h"
 
 #include <gtest/gtest.h>

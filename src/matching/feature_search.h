@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "feature_tree.h"
+#include "matching/feature_tree.h"
 
 #include <cstddef>
 #include <vector>

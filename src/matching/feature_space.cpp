@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-#include "feature_space.h"
+#include "matching/feature_space.h"
 
 #include <Eigen/QR>
 

@@ -6,11 +6,11 @@
 // nearly every pair; what could be among the k best is measured in double precision, so
 // that the result is that of an exhaustive search in double precision.
 
-#include "feature_search.h"
+#include "matching/feature_search.h"
 
 #include "aligned_buffer.h"
 #include "cpu/kernels/kernels.h"
-#include "nearest_lists.h"
+#include "matching/nearest_lists.h"
 
 #include <algorithm>
 #include <cmath>

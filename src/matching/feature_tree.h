@@ -4,7 +4,7 @@
 #pragma once
 
 #include "cpu/thread_pool.h"
-#include "feature_space.h"
+#include "matching/feature_space.h"
 
 #include <array>
 #include <cstddef>

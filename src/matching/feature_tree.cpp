@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-#include "feature_tree.h"
+#include "matching/feature_tree.h"
 
 #include "cpu/kernels/kernels.h"
 
