@@ -10,7 +10,8 @@
 #include "preparation.h"
 #include "report.h"
 
-#include <chrono>
+#include <pcl_flashreg/impl/stopwatch.hpp>
+
 #include <cstdio>
 
 namespace pcl_flashreg::benchmark {
@@ -28,11 +29,10 @@ kindOf(const std::string& backend)
 Setting
 start(const Options& options)
 {
-  const auto begin = std::chrono::steady_clock::now();
+  const detail::Stopwatch stopwatch;
   const Estimator first(kindOf(options.backend), options.threads);
-  const std::chrono::duration<double, std::milli> elapsed =
-      std::chrono::steady_clock::now() - begin;
-  Setting setting{processorName(), first.backendName(), "", {}, elapsed.count()};
+  const double start_ms = stopwatch.milliseconds();
+  Setting setting{processorName(), first.backendName(), "", {}, start_ms};
   if (setting.backend == "cuda") {
     setting.device = deviceName();
     setting.ceilings = measureCeilings();

@@ -25,15 +25,9 @@ measure(const std::string& name,
   std::vector<StageTimings> timings;
   for (int i = 0; i < runs; ++i)
     timings.push_back(estimator.estimate(correspondences, parameters).timings_ms);
-  const auto spread = [&](double StageTimings::*milliseconds) {
-    std::vector<double> times;
-    for (const StageTimings& t : timings)
-      times.push_back(t.*milliseconds);
-    return spreadOf(times);
-  };
   for (std::size_t s = 0; s < STAGES.size(); ++s)
-    measurement.stages[s] = spread(STAGES[s].milliseconds);
-  measurement.total = spread(&StageTimings::total);
+    measurement.stages[s] = spreadOf(timings, STAGES[s].milliseconds);
+  measurement.total = spreadOf(timings, &StageTimings::total);
   return measurement;
 }
 

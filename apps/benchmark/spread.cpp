@@ -20,4 +20,13 @@ spreadOf(std::vector<double> values)
   return {at(0.5), at(0.1), at(0.9), values.front()};
 }
 
+Spread
+spreadOf(const std::vector<StageTimings>& timings, double StageTimings::*milliseconds)
+{
+  std::vector<double> times;
+  for (const StageTimings& t : timings)
+    times.push_back(t.*milliseconds);
+  return spreadOf(times);
+}
+
 } // namespace pcl_flashreg::benchmark

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <pcl_flashreg/stage_timings.h>
+
 #include <vector>
 
 namespace pcl_flashreg::benchmark {
@@ -15,6 +17,10 @@ struct Spread {
 /** \param[in] values at least one */
 Spread
 spreadOf(std::vector<double> values);
+
+/** \brief Of one stage, or the total, over repeated calls. */
+Spread
+spreadOf(const std::vector<StageTimings>& timings, double StageTimings::*milliseconds);
 
 /** \brief Calls that are made before any is counted. */
 constexpr int WARM_UP_RUNS = 3;

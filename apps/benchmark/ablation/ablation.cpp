@@ -32,12 +32,8 @@ measureRow(const AblationRow& row,
     if (i >= 0)
       timings.push_back(t);
   }
-  for (std::size_t s = 0; s < ABLATION_STAGES.size(); ++s) {
-    std::vector<double> times;
-    for (const StageTimings& t : timings)
-      times.push_back(t.*ABLATION_STAGES[s].milliseconds);
-    measurement.stages[s] = spreadOf(times);
-  }
+  for (std::size_t s = 0; s < ABLATION_STAGES.size(); ++s)
+    measurement.stages[s] = spreadOf(timings, ABLATION_STAGES[s].milliseconds);
   measurement.device_bytes = stages.deviceBytes();
   return measurement;
 }

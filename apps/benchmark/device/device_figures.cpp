@@ -9,22 +9,16 @@
 #include "preparation.h"
 #include "trace.h"
 
+#include <pcl_flashreg/impl/stopwatch.hpp>
+
 #include <algorithm>
-#include <chrono>
 #include <future>
 #include <memory>
-#include <thread>
 
 namespace pcl_flashreg::benchmark {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double
-secondsSince(Clock::time_point begin)
-{
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
+using detail::Stopwatch;
 
 std::size_t
 freeBytes()
@@ -92,9 +86,9 @@ timeCalls(ResidentCall& call, int runs)
 {
   std::vector<double> times;
   for (int i = 0; i < runs; ++i) {
-    const Clock::time_point begin = Clock::now();
+    const Stopwatch stopwatch;
     call();
-    times.push_back(1e3 * secondsSince(begin));
+    times.push_back(stopwatch.milliseconds());
   }
   return spreadOf(times);
 }
@@ -109,9 +103,9 @@ energyOf(ResidentCall& call, double seconds)
   const std::optional<double> before = meter.read();
   if (!before)
     return std::nullopt;
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch stopwatch;
   std::size_t calls = 0;
-  for (; secondsSince(begin) < seconds; ++calls)
+  for (; stopwatch.milliseconds() < 1e3 * seconds; ++calls)
     call();
   const std::optional<double> after = meter.read();
   if (!after || calls == 0)
@@ -141,11 +135,12 @@ measureThroughput(const CorrespondenceView<double>& correspondences,
       for (int i = 0; i < runs; ++i)
         estimator.estimate(correspondences, parameters);
     }));
-  const Clock::time_point begin = Clock::now();
+  const Stopwatch stopwatch;
   starting_shot.set_value();
   for (std::future<void>& end : ends)
     end.get();
-  return {streams, streams * static_cast<double>(runs) / secondsSince(begin)};
+  return {streams,
+          1e3 * streams * static_cast<double>(runs) / stopwatch.milliseconds()};
 }
 
 } // namespace
