@@ -50,19 +50,19 @@ endif()
 
 # Kernels, and the host's side of them.
 set(PCL_FLASHREG_CUDA_KERNELS
-  cuda/cliques.cu
-  cuda/first_order_graph.cu
-  cuda/hypotheses.cu
-  cuda/pivots.cu
-  cuda/refinement.cu
-  cuda/second_order_graph.cu
-  cuda/second_order_graph_bounded.cu
-  cuda/verification.cu)
+  cuda/estimation/cliques.cu
+  cuda/estimation/first_order_graph.cu
+  cuda/estimation/hypotheses.cu
+  cuda/estimation/pivots.cu
+  cuda/estimation/refinement.cu
+  cuda/estimation/second_order_graph.cu
+  cuda/estimation/second_order_graph_bounded.cu
+  cuda/estimation/verification.cu)
 set(PCL_FLASHREG_CUDA_HOST
-  cuda/cuda_backend.cpp
-  cuda/error.cpp
-  cuda/stages.cpp
-  cuda/trace.cpp)
+  cuda/estimation/cuda_backend.cpp
+  cuda/support/error.cpp
+  cuda/estimation/stages.cpp
+  cuda/estimation/trace.cpp)
 list(TRANSFORM PCL_FLASHREG_CUDA_KERNELS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 list(TRANSFORM PCL_FLASHREG_CUDA_HOST PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 
@@ -70,7 +70,7 @@ list(TRANSFORM PCL_FLASHREG_CUDA_HOST PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
 function(pcl_flashreg_add_kernels target)
   add_library(${target} OBJECT ${ARGN})
   target_include_directories(${target} PRIVATE
-    ${PROJECT_SOURCE_DIR}/cuda ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
   # As on the host: no contraction but where the source says so; division and roots are
   # rounded correctly, as is nvcc's default.
   target_compile_options(${target} PRIVATE --fmad=false)
@@ -92,6 +92,7 @@ function(pcl_flashreg_add_cuda core)
 
   target_sources(${core} PRIVATE
     ${PCL_FLASHREG_CUDA_HOST} $<TARGET_OBJECTS:pcl_flashreg_kernels>)
+  target_include_directories(${core} PRIVATE ${PROJECT_SOURCE_DIR})
   target_include_directories(${core} SYSTEM PRIVATE ${CUDAToolkit_INCLUDE_DIRS})
   target_link_libraries(${core} PRIVATE ${CMAKE_DL_LIBS} rt)
   get_target_property(type ${core} TYPE)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) the pcl_flashreg authors
-"""Fits the coefficients of src/confidence.cpp to rows of pcl_flashreg_evaluate.
+"""Fits the coefficients of src/judgement/confidence.cpp to rows of pcl_flashreg_evaluate.
 
 Reads CSV files of the methods flashreg_fast, flashreg and flashreg_no_viewpoint. Three logistic regressions: correspondences alone, clouds with viewpoints, clouds
 without. Cross-validated by scene: a pair is judged by coefficients that no pair with a
@@ -49,7 +49,7 @@ def features_without_viewpoints(row):
 
 
 def limit_by_rival(row):
-    """What src/confidence.cpp puts above a verdict from correspondences alone."""
+    """What src/judgement/confidence.cpp puts above a verdict from correspondences alone."""
     ratio = row["rival_inliers"] / max(1.0, row["inliers"])
     return 1 / (1 + ratio**4)
 

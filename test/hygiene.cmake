@@ -6,7 +6,7 @@
 
 set(checked 0)
 foreach(object IN LISTS OBJECTS)
-  if(object MATCHES "kernels/(avx2|avx512|neon)")
+  if(object MATCHES "simd/(avx2|avx512|neon)")
     execute_process(COMMAND ${NM} --defined-only ${object}
       OUTPUT_VARIABLE symbols RESULT_VARIABLE failed)
     if(failed)

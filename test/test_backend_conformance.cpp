@@ -4,9 +4,9 @@
 // Every SIMD variant and number of threads against every other, on one table of
 // problems: equal to the last bit from the first graph to the final pose.
 
-#include "cpu/kernels/kernels.h"
+#include "simd/kernels.h"
 #include "support/problems.h"
-#include "trace.h"
+#include "estimation/trace.h"
 
 #include <pcl_flashreg/estimator.h>
 

@@ -5,9 +5,9 @@
 
 #include "support/made_correspondences.h"
 
-#include "clouds/agreement.h"
-#include "clouds/plane_alignment.h"
-#include "confidence.h"
+#include "judgement/cpu/agreement.h"
+#include "judgement/cpu/plane_alignment.h"
+#include "judgement/confidence.h"
 
 #include <pcl_flashreg/estimator.h>
 

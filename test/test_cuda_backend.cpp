@@ -4,9 +4,9 @@
 // The CUDA backend from outside, on the emulated device: what it allocates and waits for,
 // and what it does where the machine fails.
 
-#include "cuda_backend.h"
+#include "cuda/estimation/cuda_backend.h"
 #include "emulation.h"
-#include "stages.h"
+#include "cuda/estimation/stages.h"
 #include "support/recordings.h"
 
 #include <pcl_flashreg/estimator.h>

@@ -5,7 +5,7 @@
 // agree on: equal to the last bit from the first graph to the final pose. One source, two
 // programs: on a device, and on the emulated one.
 
-#include "cuda_backend.h"
+#include "cuda/estimation/cuda_backend.h"
 #include "support/datasets.h"
 #include "support/device.h"
 #include "support/recordings.h"

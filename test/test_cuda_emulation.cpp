@@ -5,10 +5,10 @@
 // the mistakes that it is there for.
 
 #include "emulation.h"
-#include "launch.cuh"
-#include "memory.h"
-#include "stream.h"
-#include "block.cuh"
+#include "cuda/support/launch.cuh"
+#include "cuda/support/memory.h"
+#include "cuda/support/stream.h"
+#include "cuda/support/block.cuh"
 
 #include <cooperative_groups.h>
 #include <pcl_flashreg/estimator.h>

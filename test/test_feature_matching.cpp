@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-#include "cpu/kernels/kernels.h"
+#include "simd/kernels.h"
 #include "support/made_features.h"
 
 #include <pcl_flashreg/feature_matching.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-#include "cpu/kernels/kernels.h"
-#include "matching/feature_tree.h"
+#include "simd/kernels.h"
+#include "matching/cpu/feature_tree.h"
 #include "support/made_features.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ struct Planted {
         finite{FiniteFeatures(queries.view()), FiniteFeatures(targets.view())},
         space(finite[0], finite[1])
   {
-    cpu::ThreadPool pool(threads);
+    ThreadPool pool(threads);
     trees = plantTrees({&finite[0], &finite[1]}, space, pool);
   }
 

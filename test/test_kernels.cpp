@@ -3,9 +3,9 @@
 
 // The hot loops of every variant that this machine has, one by one.
 
-#include "aligned_buffer.h"
-#include "cpu/bits.h"
-#include "cpu/kernels/kernels.h"
+#include "support/aligned_buffer.h"
+#include "estimation/cpu/bits.h"
+#include "simd/kernels.h"
 #include "support/made_correspondences.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 // Correspondences of real scans, one to three in a hundred of them right.
 
-#include "cpu/kernels/kernels.h"
+#include "simd/kernels.h"
 #include "support/datasets.h"
 #include "support/made_correspondences.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-#include "cpu/features/voxel_count.h"
+#include "scan/cpu/voxel_count.h"
 #include "support/point_rows.h"
 
 #include <pcl_flashreg/resolution.h>

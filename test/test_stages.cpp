@@ -3,10 +3,10 @@
 
 // Stages 1 to 4 against the slow reference, for equality.
 
-#include "preparation.h"
+#include "estimation/preparation.h"
 #include "support/problems.h"
 #include "support/reference.h"
-#include "trace.h"
+#include "estimation/trace.h"
 
 #include <pcl_flashreg/estimator.h>
 

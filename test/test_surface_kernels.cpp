@@ -3,7 +3,7 @@
 
 // The parts of the feature pipeline, each against a slow and obvious form.
 
-#include "cpu/features/neighbor_grid.h"
+#include "scan/cpu/neighbor_grid.h"
 #include "math/pair_features.h"
 #include "math/symmetric3.h"
 #include "support/made_correspondences.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-#include "cpu/thread_pool.h"
+#include "support/thread_pool.h"
 
 #include <gtest/gtest.h>
 

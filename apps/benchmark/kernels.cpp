@@ -4,8 +4,8 @@
 // The hot loops one by one, each variant that this processor runs (Google Benchmark). The
 // counter "items_per_second" counts pairs, words, residuals or distances.
 
-#include "aligned_buffer.h"
-#include "cpu/kernels/kernels.h"
+#include "support/aligned_buffer.h"
+#include "simd/kernels.h"
 #include "support/made_correspondences.h"
 
 #include <benchmark/benchmark.h>

@@ -7,7 +7,7 @@
 #include "../program/command_line.h"
 #include "provenance.h"
 #include "problems.h"
-#include "preparation.h"
+#include "estimation/preparation.h"
 #include "report.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>

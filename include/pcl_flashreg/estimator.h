@@ -91,7 +91,7 @@ public:
            const CloudPairView<double>* clouds = nullptr);
 
   /** \brief For tests and diagnostics: where the next calls leave the output of every
-   * stage; null (the default) for nowhere. See src/trace.h. */
+   * stage; null (the default) for nowhere. See src/estimation/trace.h. */
   void
   setTrace(Trace* trace);
 

@@ -5,7 +5,7 @@
 
 // For tests that run on a device and on the emulated one.
 
-#include "backend.h"
+#include "estimation/backend.h"
 
 #include <pcl_flashreg/estimator.h>
 

@@ -5,10 +5,10 @@
 
 // What a backend makes of a problem, stage by stage, and the comparison of two of them.
 
-#include "backend.h"
-#include "preparation.h"
+#include "estimation/backend.h"
+#include "estimation/preparation.h"
 #include "support/problems.h"
-#include "trace.h"
+#include "estimation/trace.h"
 
 #include <gtest/gtest.h>
 

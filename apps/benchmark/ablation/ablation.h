@@ -5,7 +5,7 @@
 
 #include "../spread.h"
 #include "ablation_row.h"
-#include "problem.h"
+#include "estimation/problem.h"
 
 #include <pcl_flashreg/parameters.h>
 #include <pcl_flashreg/stage_timings.h>

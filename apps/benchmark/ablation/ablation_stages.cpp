@@ -3,7 +3,7 @@
 
 #include "ablation_stages.h"
 
-#include "cuda_backend.h"
+#include "cuda/estimation/cuda_backend.h"
 #include "dense_cliques.cuh"
 #include "dense_graph.cuh"
 #include "dense_scores.cuh"

@@ -8,8 +8,8 @@
 #include "dense_pivots.cuh"
 #include "dense_product.h"
 #include "dense_refinement.cuh"
-#include "memory.h"
-#include "stages.h"
+#include "cuda/support/memory.h"
+#include "cuda/estimation/stages.h"
 
 #include <optional>
 

@@ -5,9 +5,9 @@
 
 #include "dense_cliques.cuh"
 
-#include "best_third.cuh"
-#include "block.cuh"
-#include "launch.cuh"
+#include "cuda/estimation/best_third.cuh"
+#include "cuda/support/block.cuh"
+#include "cuda/support/launch.cuh"
 
 namespace pcl_flashreg {
 namespace dense {

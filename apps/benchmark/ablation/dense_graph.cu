@@ -5,8 +5,8 @@
 
 #include "dense_graph.cuh"
 
-#include "block.cuh"
-#include "launch.cuh"
+#include "cuda/support/block.cuh"
+#include "cuda/support/launch.cuh"
 #include "math/compatibility.h"
 
 namespace pcl_flashreg {

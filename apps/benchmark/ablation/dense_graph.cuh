@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "call.cuh"
+#include "cuda/estimation/call.cuh"
 #include "dense_matrix.cuh"
 
 namespace pcl_flashreg {

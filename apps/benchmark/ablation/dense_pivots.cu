@@ -7,7 +7,7 @@
 
 #include "dense_pivots.cuh"
 
-#include "launch.cuh"
+#include "cuda/support/launch.cuh"
 
 #include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_select.cuh>

@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include "call.cuh"
+#include "cuda/estimation/call.cuh"
 #include "dense_matrix.cuh"
-#include "memory.h"
-#include "stream.h"
+#include "cuda/support/memory.h"
+#include "cuda/support/stream.h"
 
 namespace pcl_flashreg {
 namespace dense {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "dense_matrix.cuh"
-#include "memory.h"
-#include "stream.h"
+#include "cuda/support/memory.h"
+#include "cuda/support/stream.h"
 
 #include <cublas_v2.h>
 

@@ -4,9 +4,9 @@
 #include "dense_refinement.cuh"
 
 #include "dense_score.cuh"
-#include "launch.cuh"
-#include "refine_pose.cuh"
-#include "slot_rank.cuh"
+#include "cuda/support/launch.cuh"
+#include "cuda/estimation/refine_pose.cuh"
+#include "cuda/estimation/slot_rank.cuh"
 
 #include <cmath>
 

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "call.cuh"
-#include "memory.h"
-#include "stream.h"
+#include "cuda/estimation/call.cuh"
+#include "cuda/support/memory.h"
+#include "cuda/support/stream.h"
 
 namespace pcl_flashreg {
 namespace dense {

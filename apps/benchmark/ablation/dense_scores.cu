@@ -6,8 +6,8 @@
 
 #include "dense_scores.cuh"
 
-#include "block.cuh"
-#include "launch.cuh"
+#include "cuda/support/block.cuh"
+#include "cuda/support/launch.cuh"
 
 namespace pcl_flashreg {
 namespace dense {

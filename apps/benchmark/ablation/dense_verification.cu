@@ -6,9 +6,9 @@
 
 #include "dense_verification.cuh"
 
-#include "block.cuh"
+#include "cuda/support/block.cuh"
 #include "dense_score.cuh"
-#include "launch.cuh"
+#include "cuda/support/launch.cuh"
 
 namespace pcl_flashreg {
 namespace dense {

@@ -4,8 +4,8 @@
 #include "ceilings.h"
 
 #include "ceilings.cuh"
-#include "memory.h"
-#include "stream.h"
+#include "cuda/support/memory.h"
+#include "cuda/support/stream.h"
 
 #include <algorithm>
 

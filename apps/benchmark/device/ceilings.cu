@@ -3,7 +3,7 @@
 
 #include "ceilings.cuh"
 
-#include "launch.cuh"
+#include "cuda/support/launch.cuh"
 
 #include <cmath>
 

@@ -3,11 +3,11 @@
 
 #include "device_figures.h"
 
-#include "cuda_backend.h"
+#include "cuda/estimation/cuda_backend.h"
 #include "energy_meter.h"
-#include "error.h"
-#include "preparation.h"
-#include "trace.h"
+#include "cuda/support/error.h"
+#include "estimation/preparation.h"
+#include "estimation/trace.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 

@@ -3,8 +3,8 @@
 
 #include "work.h"
 
-#include "problem.h"
-#include "trace.h"
+#include "estimation/problem.h"
+#include "estimation/trace.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "estimation/pipeline.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace pcl_flashreg {
+
+/** \brief A machine that runs the pipeline; owns its working memory. */
+class Backend {
+public:
+  virtual ~Backend() = default;
+
+  virtual std::string
+  name() const = 0;
+
+  virtual PoseEstimate
+  run(const Problem& problem,
+      const Parameters& parameters,
+      const std::optional<Pose>& guess,
+      bool with_candidates,
+      StageClock& clock,
+      Trace* trace) = 0;
+};
+
+/** \throws std::invalid_argument, BackendError, see cpu::selectKernels() */
+std::unique_ptr<Backend>
+makeCpuBackend(unsigned num_threads);
+
+/** \throws BackendError, with the reason, if this build has no CUDA backend or this machine
+ * no device that it can use */
+std::unique_ptr<Backend>
+makeCudaBackend();
+
+} // namespace pcl_flashreg

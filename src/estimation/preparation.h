@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "estimation/problem.h"
+
+#include <pcl_flashreg/estimator.h>
+
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief What became of the caller's rows on the way to a Problem. */
+struct Preparation {
+  /** \brief Row of the input behind each row of the problem, ascending. */
+  std::vector<int> rows;
+  std::size_t invalid = 0;
+  std::size_t dropped = 0;
+  /** \brief What was subtracted from either side. */
+  Vec3 source_centre{0, 0, 0};
+  Vec3 target_centre{0, 0, 0};
+};
+
+/** \brief Leaves out rows that are not finite, keeps the best-ranked max_correspondences,
+ * subtracts the centroids in double precision and packs the rest.
+ */
+template <typename Scalar>
+void
+prepare(const CorrespondenceView<Scalar>& correspondences,
+        std::size_t max_correspondences,
+        Preparation& preparation,
+        Problem& problem);
+
+extern template void
+prepare(const CorrespondenceView<float>&, std::size_t, Preparation&, Problem&);
+extern template void
+prepare(const CorrespondenceView<double>&, std::size_t, Preparation&, Problem&);
+
+} // namespace pcl_flashreg

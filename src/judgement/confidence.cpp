@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "judgement/confidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_flashreg {
+namespace {
+
+double
+logistic(double x)
+{
+  return 1 / (1 + std::exp(-x));
+}
+
+/** \brief No pose is more certain than its lead over its rival lets it be: 50 % for one
+ * with as many inliers. */
+double
+limitByRival(const Evidence& e)
+{
+  return 1 / (1 + std::pow(e.rival_inliers / std::max(1.0, e.inliers), 4));
+}
+
+double
+fromCorrespondences(const Evidence& e)
+{
+  const double p = logistic(-11.56 + 3.23 * std::log(e.inliers + 1) +
+                            1.90 * std::log(e.inlier_ratio + 1e-4) +
+                            0.33 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
+                            1.66 * std::log(e.thickness + 1));
+  return std::min(p, limitByRival(e));
+}
+
+double
+fromClouds(const Evidence& e)
+{
+  return logistic(-23.64 + 0.90 * std::log(e.agreement.matched + 0.01) -
+                  4.73 * std::log(e.agreement.contradicted + 0.01) +
+                  2.47 * std::log(e.inliers + 5) + 1.08 * e.lead +
+                  1.32 * std::log(e.stiffness + 0.001));
+}
+
+double
+fromCloudsWithoutViewpoints(const Evidence& e)
+{
+  return logistic(-10.48 - 0.74 * std::log(e.agreement.matched + 0.01) +
+                  3.89 * std::log(e.inliers + 5) + 0.38 * e.lead +
+                  1.92 * std::log(e.stiffness + 0.001));
+}
+
+} // namespace
+
+double
+confidenceOf(const Evidence& evidence)
+{
+  if (!evidence.has_clouds)
+    return fromCorrespondences(evidence);
+  return evidence.has_viewpoints ? fromClouds(evidence)
+                                 : fromCloudsWithoutViewpoints(evidence);
+}
+
+} // namespace pcl_flashreg

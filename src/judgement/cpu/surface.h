@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "judgement/cpu/free_space.h"
+#include "judgement/cpu/nearest_point_grid.h"
+#include "math/pose.h"
+
+#include <pcl_flashreg/cloud_view.h>
+
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief A cloud made ready for the check: finite points, centred, in single precision,
+ * with what answers questions about them. */
+struct Surface {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;
+  NearestPointGrid nearest;
+  FreeSpace free_space;
+
+  /** \param[in] centre what is subtracted from every coordinate */
+  template <typename Scalar>
+  void
+  build(const CloudView<Scalar>& cloud, const Vec3& centre, float spacing);
+};
+
+extern template void
+Surface::build(const CloudView<float>&, const Vec3&, float);
+extern template void
+Surface::build(const CloudView<double>&, const Vec3&, float);
+
+} // namespace pcl_flashreg

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "scan/cpu/feature_stages.h"
+
+#include "scan/points.h"
+
+namespace pcl_flashreg {
+namespace cpu {
+
+void
+FeatureStages::voxelGrid(const PointView& points, double voxel_size)
+{
+  Bounds bounds;
+  std::size_t finite = 0;
+  const std::size_t count = countOf(points);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* point = pointOf(points, i);
+    if (!isFinite(point))
+      continue;
+    bounds.add(point);
+    ++finite;
+  }
+  keypoints_.clear();
+  if (finite == 0)
+    return;
+  if (voxel_size > 0) {
+    voxel_grid_.run(points, bounds, static_cast<float>(voxel_size), pool_, keypoints_);
+    return;
+  }
+  keypoints_.reserve(3 * finite);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* point = pointOf(points, i);
+    if (isFinite(point))
+      keypoints_.insert(keypoints_.end(), point, point + 3);
+  }
+}
+
+void
+FeatureStages::neighborGrid(double radius)
+{
+  grid_.build(keypoints_, radius);
+}
+
+DescribedCloud
+FeatureStages::takeResult()
+{
+  // Where in the grid each keypoint stands that is still there.
+  constexpr std::uint32_t GONE = 0xFFFFFFFF;
+  std::vector<std::uint32_t> place(grid_.size(), GONE);
+  DescribedCloud result;
+  for (std::size_t i = 0; i < grid_.size(); ++i)
+    if (!grid_.isRemoved(i)) {
+      place[grid_.row(i)] = static_cast<std::uint32_t>(i);
+      ++result.size;
+    }
+  const SurfaceArrays arrays = grid_.arrays();
+  result.points.reserve(3 * result.size);
+  result.normals.reserve(3 * result.size);
+  result.curvatures.reserve(result.size);
+  result.descriptors.reserve(FPFH_BINS * result.size);
+  for (const std::uint32_t i : place) {
+    if (i == GONE)
+      continue;
+    result.points.insert(result.points.end(), {arrays.x[i], arrays.y[i], arrays.z[i]});
+    result.normals.insert(result.normals.end(),
+                          {arrays.nx[i], arrays.ny[i], arrays.nz[i]});
+    result.curvatures.push_back(curvatures_[i]);
+    const float* histogram = feature_histograms_.data() + i * HISTOGRAM_STRIDE;
+    result.descriptors.insert(
+        result.descriptors.end(), histogram, histogram + FPFH_BINS);
+  }
+  return result;
+}
+
+} // namespace cpu
+} // namespace pcl_flashreg

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+// NEON, which every AArch64 processor has.
+
+#include "simd/simd_kernels.h"
+#include "simd/surface_kernels.h"
+
+#include <arm_neon.h>
+
+namespace pcl_flashreg {
+namespace cpu {
+namespace {
+
+struct Neon {
+  using Float = float32x4_t;
+  using Mask = uint32x4_t;
+  static constexpr std::size_t WIDTH = 4;
+  static constexpr std::size_t QUERY_ROWS = 4;
+  static constexpr std::size_t FEATURE_GROUPS = 4;
+
+  static Float
+  load(const float* p)
+  {
+    return vld1q_f32(p);
+  }
+  static Float
+  broadcast(float x)
+  {
+    return vdupq_n_f32(x);
+  }
+  static Float
+  add(Float a, Float b)
+  {
+    return vaddq_f32(a, b);
+  }
+  static Float
+  sub(Float a, Float b)
+  {
+    return vsubq_f32(a, b);
+  }
+  static Float
+  mul(Float a, Float b)
+  {
+    return vmulq_f32(a, b);
+  }
+  static Float
+  fma(Float a, Float b, Float c)
+  {
+    return vfmaq_f32(c, a, b);
+  }
+  static Mask
+  less(Float a, Float b)
+  {
+    return vcltq_f32(a, b);
+  }
+  static Mask
+  lessAnd(Mask mask, Float a, Float b)
+  {
+    return vandq_u32(mask, vcltq_f32(a, b));
+  }
+  static Mask
+  greaterAnd(Mask mask, Float a, Float b)
+  {
+    return vandq_u32(mask, vcgtq_f32(a, b));
+  }
+  static std::uint32_t
+  bits(Mask mask)
+  {
+    const uint32x4_t lane_bits = {1, 2, 4, 8};
+    return vaddvq_u32(vandq_u32(mask, lane_bits));
+  }
+  static Float
+  loadUnaligned(const float* p)
+  {
+    return vld1q_f32(p);
+  }
+  static void
+  storeUnaligned(float* p, Float a)
+  {
+    vst1q_f32(p, a);
+  }
+  static Float
+  gather(const float* base, const std::uint32_t* indices)
+  {
+    const Float values = {
+        base[indices[0]], base[indices[1]], base[indices[2]], base[indices[3]]};
+    return values;
+  }
+  static Float
+  div(Float a, Float b)
+  {
+    return vdivq_f32(a, b);
+  }
+  static Float
+  sqrt(Float a)
+  {
+    return vsqrtq_f32(a);
+  }
+  static Float
+  abs(Float a)
+  {
+    return vabsq_f32(a);
+  }
+  static Float
+  select(Mask mask, Float a, Float b)
+  {
+    return vbslq_f32(mask, a, b);
+  }
+  static Mask
+  both(Mask a, Mask b)
+  {
+    return vandq_u32(a, b);
+  }
+  static Mask
+  firstLanes(std::size_t n)
+  {
+    const uint32x4_t lanes = {0, 1, 2, 3};
+    return vcltq_u32(lanes, vdupq_n_u32(static_cast<std::uint32_t>(n)));
+  }
+  static std::size_t
+  compress(
+      Mask mask, std::uint32_t first, Float values, std::uint32_t* indices, float* out)
+  {
+    float all[WIDTH];
+    vst1q_f32(all, values);
+    const std::uint32_t lanes = bits(mask);
+    std::size_t count = 0;
+    for (std::uint32_t lane = 0; lane < WIDTH; ++lane) {
+      indices[count] = first + lane;
+      out[count] = all[lane];
+      count += lanes >> lane & 1;
+    }
+    return count;
+  }
+  static void
+  storeTruncated(std::int32_t* out, Float a)
+  {
+    vst1q_s32(out, vcvtq_s32_f32(a));
+  }
+  /** \brief Groups come in ascending order, so the first clears the word. */
+  static void
+  store(Mask mask, std::uint64_t* words, std::size_t group)
+  {
+    const std::uint64_t lanes = static_cast<std::uint64_t>(bits(mask)) << (4 * group);
+    *words = group == 0 ? lanes : *words | lanes;
+  }
+};
+
+void
+commonNeighbours(const std::uint64_t* row,
+                 const std::uint64_t* matrix,
+                 std::size_t stride,
+                 std::size_t words,
+                 const std::uint32_t* rows,
+                 std::size_t count,
+                 std::uint32_t* common)
+{
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::uint64_t* other = matrix + rows[n] * stride;
+    uint64x2_t sum = vdupq_n_u64(0);
+    for (std::size_t w = 0; w < words; w += 2) {
+      const uint64x2_t both = vandq_u64(vld1q_u64(row + w), vld1q_u64(other + w));
+      const uint8x16_t bytes = vcntq_u8(vreinterpretq_u8_u64(both));
+      sum = vpadalq_u32(sum, vpaddlq_u16(vpaddlq_u8(bytes)));
+    }
+    common[n] = static_cast<std::uint32_t>(vaddvq_u64(sum));
+  }
+}
+
+} // namespace
+
+extern const Kernels NEON_KERNELS;
+const Kernels NEON_KERNELS = {"neon",
+                              &edgeTestSimd<Neon>,
+                              &transposeBits,
+                              &commonNeighbours,
+                              &countBitsIn,
+                              &intersectRows,
+                              &residualTestSimd<Neon>,
+                              &featureCandidatesSimd<Neon>,
+                              &collectNeighborsSimd<Neon>,
+                              &momentSumsSimd<Neon>,
+                              &pairHistogramSimd<Neon>,
+                              &weightedRowSumSimd<Neon>};
+
+} // namespace cpu
+} // namespace pcl_flashreg

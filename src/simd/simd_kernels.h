@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+// The hot loops, written once over a type V that wraps one instruction set's registers of
+// floats. Everything stands in an unnamed namespace, and nothing but these headers is
+// included, so that no code compiled with instruction-set flags leaks out of its file.
+//
+// V offers: Float, Mask; WIDTH; load, broadcast, add, sub, mul, fma(a, b, c) = a * b + c;
+// less(a, b), lessAnd(mask, a, b), greaterAnd(mask, a, b); store(mask, words, group), which
+// puts WIDTH bits at bit group * WIDTH of the little-endian words.
+//
+// Products and sums are contracted here on purpose: these tests only decide what is
+// certain, and leave the rest to the exact formulas.
+
+#include "simd/kernels.h"
+
+namespace pcl_flashreg {
+namespace cpu {
+namespace {
+
+template <typename V>
+void
+edgeTestSimd(const EdgeTestInput& in,
+             std::size_t row0,
+             std::size_t column0,
+             std::uint64_t sure[64],
+             std::uint64_t possible[64])
+{
+  using Float = typename V::Float;
+  const Float minus_two_tau2 = V::broadcast(in.minus_two_tau2);
+  const Float tau4 = V::broadcast(in.tau4);
+  const Float sure_defect = V::broadcast(in.sure_defect);
+  const Float possible_defect = V::broadcast(in.possible_defect);
+  const Float sure_sum = V::broadcast(in.sure_sum);
+  const Float possible_sum = V::broadcast(in.possible_sum);
+  const Float minus_two = V::broadcast(-2.0f);
+
+  for (std::size_t group = 0; group < 64 / V::WIDTH; ++group) {
+    const std::size_t j = column0 + group * V::WIDTH;
+    const Float sx = V::mul(minus_two, V::load(in.sx + j));
+    const Float sy = V::mul(minus_two, V::load(in.sy + j));
+    const Float sz = V::mul(minus_two, V::load(in.sz + j));
+    const Float tx = V::mul(minus_two, V::load(in.tx + j));
+    const Float ty = V::mul(minus_two, V::load(in.ty + j));
+    const Float tz = V::mul(minus_two, V::load(in.tz + j));
+    const Float source_norm = V::load(in.source_norm + j);
+    const Float target_norm = V::load(in.target_norm + j);
+    for (std::size_t row = 0; row < 64; ++row) {
+      const std::size_t i = row0 + row;
+      // a = |s_i - s_j|^2 and b = |t_i - t_j|^2 from norms and inner products.
+      Float a = V::add(source_norm, V::broadcast(in.source_norm[i]));
+      Float b = V::add(target_norm, V::broadcast(in.target_norm[i]));
+      a = V::fma(sx, V::broadcast(in.sx[i]), a);
+      b = V::fma(tx, V::broadcast(in.tx[i]), b);
+      a = V::fma(sy, V::broadcast(in.sy[i]), a);
+      b = V::fma(ty, V::broadcast(in.ty[i]), b);
+      a = V::fma(sz, V::broadcast(in.sz[i]), a);
+      b = V::fma(tz, V::broadcast(in.tz[i]), b);
+      const Float difference = V::sub(a, b);
+      const Float sum = V::add(a, b);
+      const Float defect =
+          V::fma(difference, difference, V::fma(minus_two_tau2, sum, tau4));
+      auto is_possible = V::less(defect, possible_defect);
+      is_possible = V::greaterAnd(is_possible, sum, possible_sum);
+      auto is_sure = V::lessAnd(is_possible, defect, sure_defect);
+      is_sure = V::greaterAnd(is_sure, sum, sure_sum);
+      V::store(is_possible, possible + row, group);
+      V::store(is_sure, sure + row, group);
+    }
+  }
+}
+
+template <typename V>
+void
+residualTestSimd(const ResidualInput& in,
+                 std::size_t first_word,
+                 std::size_t words,
+                 std::uint64_t* sure,
+                 std::uint64_t* possible)
+{
+  using Float = typename V::Float;
+  const Float sure_limit = V::broadcast(in.sure);
+  const Float possible_limit = V::broadcast(in.possible);
+  Float r[9], t[3];
+  for (int k = 0; k < 9; ++k)
+    r[k] = V::broadcast(in.r[k]);
+  for (int k = 0; k < 3; ++k)
+    t[k] = V::broadcast(in.t[k]);
+
+  for (std::size_t word = 0; word < words; ++word)
+    for (std::size_t group = 0; group < 64 / V::WIDTH; ++group) {
+      const std::size_t i = 64 * (first_word + word) + group * V::WIDTH;
+      const Float sx = V::load(in.sx + i);
+      const Float sy = V::load(in.sy + i);
+      const Float sz = V::load(in.sz + i);
+      Float dx = V::sub(t[0], V::load(in.tx + i));
+      Float dy = V::sub(t[1], V::load(in.ty + i));
+      Float dz = V::sub(t[2], V::load(in.tz + i));
+      dx = V::fma(r[0], sx, V::fma(r[1], sy, V::fma(r[2], sz, dx)));
+      dy = V::fma(r[3], sx, V::fma(r[4], sy, V::fma(r[5], sz, dy)));
+      dz = V::fma(r[6], sx, V::fma(r[7], sy, V::fma(r[8], sz, dz)));
+      const Float squared = V::fma(dz, dz, V::fma(dy, dy, V::mul(dx, dx)));
+      const auto is_possible = V::less(squared, possible_limit);
+      const auto is_sure = V::lessAnd(is_possible, squared, sure_limit);
+      V::store(is_possible, possible + word, group);
+      V::store(is_sure, sure + word, group);
+    }
+}
+
+template <typename V>
+void
+featureCandidatesSimd(const FeatureBlock& in,
+                      std::size_t block,
+                      const QueryRows& queries,
+                      std::uint32_t* candidates)
+{
+  // As many query rows at a time as the accumulators leave registers for.
+  using Float = typename V::Float;
+  constexpr std::size_t ROWS = V::QUERY_ROWS;
+  constexpr std::size_t GROUPS = V::FEATURE_GROUPS;
+  const float* targets = in.targets + block * in.dimension * FEATURE_BLOCK;
+  const float* norms = in.target_norms + block * FEATURE_BLOCK;
+  const Float minus_two = V::broadcast(-2.0f);
+  for (std::size_t q = 0; q < QUERY_BLOCK; ++q)
+    candidates[q] = 0;
+  for (std::size_t first = 0; first < QUERY_BLOCK; first += ROWS)
+    for (std::size_t group = 0; group < FEATURE_BLOCK / V::WIDTH; group += GROUPS) {
+      Float products[ROWS][GROUPS];
+      for (std::size_t q = 0; q < ROWS; ++q)
+        for (std::size_t g = 0; g < GROUPS; ++g)
+          products[q][g] = V::broadcast(0.0f);
+      for (std::size_t d = 0; d < in.dimension; ++d) {
+        Float t[GROUPS];
+        for (std::size_t g = 0; g < GROUPS; ++g)
+          t[g] = V::load(targets + d * FEATURE_BLOCK + (group + g) * V::WIDTH);
+        for (std::size_t q = 0; q < ROWS; ++q) {
+          const Float value =
+              V::broadcast(queries.values[(first + q) * in.dimension + d]);
+          for (std::size_t g = 0; g < GROUPS; ++g)
+            products[q][g] = V::fma(value, t[g], products[q][g]);
+        }
+      }
+      for (std::size_t q = 0; q < ROWS; ++q)
+        for (std::size_t g = 0; g < GROUPS; ++g) {
+          const Float norm = V::load(norms + (group + g) * V::WIDTH);
+          const Float distance = V::fma(minus_two, products[q][g], norm);
+          const auto near =
+              V::less(distance, V::broadcast(queries.thresholds[first + q]));
+          candidates[first + q] |= V::bits(near) << ((group + g) * V::WIDTH);
+        }
+    }
+}
+
+// The compiler makes one instruction of a population count where the file's flags allow.
+
+inline std::size_t
+countBitsIn(const std::uint64_t* words, std::size_t n)
+{
+  std::size_t count = 0;
+  for (std::size_t w = 0; w < n; ++w)
+    count += static_cast<std::size_t>(__builtin_popcountll(words[w]));
+  return count;
+}
+
+inline std::size_t
+intersectRows(const std::uint64_t* a,
+              const std::uint64_t* b,
+              std::size_t first,
+              std::size_t words,
+              std::uint64_t mask,
+              std::uint32_t* bits,
+              std::uint32_t* ranks_a,
+              std::uint32_t* ranks_b)
+{
+  std::size_t count = 0;
+  std::uint32_t rank_a = 0, rank_b = 0;
+  for (std::size_t w = first; w < words; ++w, mask = ~std::uint64_t{0}) {
+    const std::uint64_t bits_a = a[w] & mask, bits_b = b[w] & mask;
+    for (std::uint64_t both = bits_a & bits_b; both != 0; both &= both - 1) {
+      const std::uint64_t before = (both & (0 - both)) - 1;
+      bits[count] = static_cast<std::uint32_t>(64 * w) +
+                    static_cast<std::uint32_t>(__builtin_ctzll(both));
+      ranks_a[count] =
+          rank_a + static_cast<std::uint32_t>(__builtin_popcountll(bits_a & before));
+      ranks_b[count] =
+          rank_b + static_cast<std::uint32_t>(__builtin_popcountll(bits_b & before));
+      ++count;
+    }
+    rank_a += static_cast<std::uint32_t>(__builtin_popcountll(bits_a));
+    rank_b += static_cast<std::uint32_t>(__builtin_popcountll(bits_b));
+  }
+  return count;
+}
+
+/** \brief Transposes by exchanging ever smaller off-diagonal squares; the compiler turns
+ * the inner loops into whatever registers it has. */
+inline void
+transposeBits(std::uint64_t block[64])
+{
+  std::uint64_t mask = 0x00000000FFFFFFFFull;
+  for (unsigned width = 32; width != 0; width >>= 1, mask ^= mask << width)
+    for (unsigned base = 0; base < 64; base += 2 * width)
+      for (unsigned k = base; k < base + width; ++k) {
+        const std::uint64_t swapped = ((block[k] >> width) ^ block[k + width]) & mask;
+        block[k] ^= swapped << width;
+        block[k + width] ^= swapped;
+      }
+}
+
+} // namespace
+} // namespace cpu
+} // namespace pcl_flashreg

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief Threads that help their owner through loops.
+ *
+ * The caller works too, and waits only for helpers that are in the middle of a task: a
+ * helper that the system has not scheduled yet is not waited for. On a machine with busy
+ * cores this is what keeps seven short loops from costing seven time slices, which is what
+ * they cost with a barrier that every thread of a team has to reach. Helpers sleep between
+ * loops.
+ */
+class ThreadPool {
+public:
+  /** \param[in] threads the caller included; 0 takes the number of processors */
+  explicit ThreadPool(unsigned threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool&
+  operator=(const ThreadPool&) = delete;
+
+  /** \brief The caller included, >= 1. */
+  std::size_t
+  size() const
+  {
+    return size_;
+  }
+
+  /** \brief Calls task(i, thread) for every i in [0, count), in any order, thread in
+   * [0, size()). Tasks must not depend on each other, and what they write must not depend
+   * on `thread`, which only names scratch memory. An exception of a task ends up with the
+   * caller; tasks that had not begun are then skipped. Not to be called from a task. */
+  template <typename Task>
+  void
+  forEach(std::size_t count, const Task& task)
+  {
+    if (size_ == 1 || count <= 1) {
+      for (std::size_t i = 0; i < count; ++i)
+        task(i, std::size_t{0});
+      return;
+    }
+    run([](const void* opaque,
+           std::size_t i,
+           std::size_t thread) { (*static_cast<const Task*>(opaque))(i, thread); },
+        &task,
+        count);
+  }
+
+private:
+  using Call = void (*)(const void* task, std::size_t i, std::size_t thread);
+
+  void
+  run(Call call, const void* task, std::size_t count);
+  void
+  startHelpers();
+  void
+  help(std::size_t thread);
+  void
+  takeTasks(std::size_t thread) noexcept;
+
+  const std::size_t size_;
+  std::vector<std::thread> helpers_;
+
+  // The loop at hand. Set by the caller while no helper is in it; a helper enters and
+  // leaves under the mutex.
+  Call call_ = nullptr;
+  const void* task_ = nullptr;
+  std::size_t count_ = 0;
+  std::atomic<std::size_t> next_{0};
+  std::exception_ptr failure_;
+
+  std::mutex mutex_;
+  std::condition_variable wake_, left_;
+  /** \brief Counts loops, so that a helper sees that there is a new one. */
+  std::atomic<std::uint64_t> loop_{0};
+  bool open_ = false;
+  bool stop_ = false;
+  std::atomic<std::size_t> inside_{0};
+};
+
+} // namespace pcl_flashreg
