@@ -35,7 +35,7 @@ expectedOf(const AblationRow& row, const Problem& problem, Parameters parameters
   parameters.second_order = bounded ? SecondOrder::Bounded : SecondOrder::Exact;
   if (!row.dataflow)
     parameters.pool_capacity = parameters.row_capacity;
-  return pcl_flashreg::record(*makeCpuBackend(1), problem, parameters);
+  return pcl_flashreg::record(*makeCpuBackend(oneThread()), problem, parameters);
 }
 
 /** \brief Equality through the scores of the hypotheses; the pose but for the rounding of

@@ -24,7 +24,7 @@ protected:
     cuda_emulation::reset();
     named_ = made::sized(200, 0.3);
     pack(named_, problem_);
-    expected_ = record(*makeCpuBackend(1), problem_, named_.parameters);
+    expected_ = record(*makeCpuBackend(oneThread()), problem_, named_.parameters);
   }
 
   /** \brief Without a trace and candidates: copying them waits. */
@@ -136,7 +136,7 @@ TEST_F(CudaBackendTest, AutoFollowsTheInput)
   Parameters parameters;
   parameters.row_capacity = 30; // 8 L lies between the two mean degrees
   parameters.pool_capacity = 10;
-  const auto cpu = makeCpuBackend(1), cuda = makeCudaBackend();
+  const auto cpu = makeCpuBackend(oneThread()), cuda = makeCudaBackend();
   for (const made::NamedProblem* named : {&sparse, &dense, &dense, &sparse, &dense}) {
     pack(*named, problem_);
     expectSame(record(*cpu, problem_, parameters), record(*cuda, problem_, parameters));
@@ -186,7 +186,7 @@ TEST_F(CudaBackendTest, SurvivesAnyFailedAllocation)
   std::size_t failures = 0;
   for (const SecondOrder form : {SecondOrder::Exact, SecondOrder::Bounded}) {
     named_.parameters.second_order = form;
-    expected_ = record(*makeCpuBackend(1), problem_, named_.parameters);
+    expected_ = record(*makeCpuBackend(oneThread()), problem_, named_.parameters);
     for (std::size_t n = 0;; ++n) {
       cuda_emulation::reset();
       const auto backend = makeCudaBackend();

@@ -62,7 +62,7 @@ expectAgreement(const made::NamedProblem& named,
     return;
   }
   const Recording expected =
-      record(*makeCpuBackend(1), problem, named.parameters, guess);
+      record(*makeCpuBackend(oneThread()), problem, named.parameters, guess);
   for (const Way& way : ways()) {
     SCOPED_TRACE(way.name);
     expectSame(expected, runOnDevice(way, problem, named.parameters, guess));
@@ -135,7 +135,8 @@ TEST(CudaGuess, AgreesWithTheCpu)
   const made::NamedProblem named = made::sized(150, 0.3);
   Problem problem;
   pack(named, problem);
-  const Recording found = record(*makeCpuBackend(1), problem, named.parameters);
+  const Recording found =
+      record(*makeCpuBackend(oneThread()), problem, named.parameters);
   ASSERT_FALSE(found.estimate.hypotheses.empty());
   const Pose good = found.estimate.hypotheses.front().pose;
   const Pose bad = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {50, 0, 0}};

@@ -16,15 +16,15 @@
 namespace pcl_flashreg {
 namespace {
 
-struct Scan {
+struct RealCloud {
   const char* file;
   double resolution;
 };
 
 void
-PrintTo(const Scan& scan, std::ostream* out)
+PrintTo(const RealCloud& cloud, std::ostream* out)
 {
-  *out << scan.file << " at " << scan.resolution;
+  *out << cloud.file << " at " << cloud.resolution;
 }
 
 constexpr double CLOSE = 0.05;
@@ -58,7 +58,7 @@ exactNormal(const detail::PointsXYZ& cloud, const pcl::Indices& neighbors)
           values[1] < 1e-2 * values[2]};
 }
 
-class FrontEnds : public testing::TestWithParam<Scan> {
+class FrontEnds : public testing::TestWithParam<RealCloud> {
 protected:
   void
   SetUp() override
@@ -144,19 +144,19 @@ INSTANTIATE_TEST_SUITE_P(
     DataSets,
     FrontEnds,
     testing::Values(
-        Scan{"3dmatch/7-scenes-redkitchen/cloud_bin_0.pcd", 0.05},
-        Scan{"3dmatch/sun3d-hotel_umd-maryland_hotel3/cloud_bin_1.pcd", 0.05},
-        Scan{"3dmatch/sun3d-home_at-home_at_scan1_2013_jan_1/cloud_bin_0.pcd", 0.05},
-        Scan{"3dmatch_raw_redkitchen/cloud_bin_0.pcd", 0.05},
-        Scan{"turboreg_kitti_demo/000_pts_src.ply", 1.0},
-        Scan{"turboreg_kitti_demo/010_pts_dst.ply", 1.0},
-        Scan{"kitti/00/000000.pcd", 0.5},
-        Scan{"balm_hilti_lidar/full0.pcd", 0.25},
-        Scan{"stanford_bunny/bun000.pcd", 0.0025},
-        Scan{"fast_gicp_pair/251370668.pcd", 0.5},
-        Scan{"mac_demos/macpp_src.pcd", 0.05},
-        Scan{"open3d_feature_pair/cloud_bin_0.pcd", 0.05},
-        Scan{"pcl_data_tutorials/capture0001.pcd", 0.02},
-        Scan{"pcl_data_tutorials/room_scan1.pcd", 0.1}));
+        RealCloud{"3dmatch/7-scenes-redkitchen/cloud_bin_0.pcd", 0.05},
+        RealCloud{"3dmatch/sun3d-hotel_umd-maryland_hotel3/cloud_bin_1.pcd", 0.05},
+        RealCloud{"3dmatch/sun3d-home_at-home_at_scan1_2013_jan_1/cloud_bin_0.pcd", 0.05},
+        RealCloud{"3dmatch_raw_redkitchen/cloud_bin_0.pcd", 0.05},
+        RealCloud{"turboreg_kitti_demo/000_pts_src.ply", 1.0},
+        RealCloud{"turboreg_kitti_demo/010_pts_dst.ply", 1.0},
+        RealCloud{"kitti/00/000000.pcd", 0.5},
+        RealCloud{"balm_hilti_lidar/full0.pcd", 0.25},
+        RealCloud{"stanford_bunny/bun000.pcd", 0.0025},
+        RealCloud{"fast_gicp_pair/251370668.pcd", 0.5},
+        RealCloud{"mac_demos/macpp_src.pcd", 0.05},
+        RealCloud{"open3d_feature_pair/cloud_bin_0.pcd", 0.05},
+        RealCloud{"pcl_data_tutorials/capture0001.pcd", 0.02},
+        RealCloud{"pcl_data_tutorials/room_scan1.pcd", 0.1}));
 
 } // namespace pcl_flashreg

@@ -14,6 +14,8 @@
 #include "snapshot.h"
 #include "viewer.h"
 
+#include <pcl_flashreg/impl/stopwatch.hpp>
+
 #include <pcl/console/print.h>
 
 #include <iostream>
@@ -50,7 +52,7 @@ writeOutputs(const Options& options,
              const Outcome& outcome,
              const Progress& progress)
 {
-  const RigidTransform& pose = outcome.result.T_target_source;
+  const RigidTransform& pose = outcome.pair.pose.T_target_source;
   if (!options.json.empty()) {
     const std::string json = formatJson(options, outcome);
     if (options.json == "-")
@@ -58,8 +60,8 @@ writeOutputs(const Options& options,
     else
       io::writeFile(options.json, json);
   }
-  const bool found = outcome.result.status == Status::Ok;
-  if (outcome.result.converged || (found && options.write_untrusted)) {
+  const bool found = outcome.pair.pose.status == Status::Ok;
+  if (outcome.pair.pose.converged || (found && options.write_untrusted)) {
     if (!options.transform.empty())
       io::writeFile(options.transform, io::formatTransform(pose));
     if (!options.output.empty())
@@ -81,14 +83,16 @@ Verdict
 run(const Options& options)
 {
   const Progress progress(options.quiet);
-  StepClock clock;
+  const detail::Stopwatch total;
   const Inputs inputs = readInputs(options, progress);
-  clock.finish(&Times::reading);
-  const Outcome outcome = alignInputs(options, inputs, progress, clock);
+  const double reading_ms = total.milliseconds();
+  Outcome outcome = alignInputs(options, inputs, progress);
+  outcome.reading_ms = reading_ms;
+  outcome.total_ms = total.milliseconds();
   if (!options.quiet && options.json != "-")
     std::cout << formatReport(options, outcome) << std::flush;
   writeOutputs(options, inputs, outcome, progress);
-  return outcome.result.converged ? TRUSTED : NOT_TRUSTED;
+  return outcome.pair.pose.converged ? TRUSTED : NOT_TRUSTED;
 }
 
 } // namespace

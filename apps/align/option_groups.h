@@ -19,6 +19,7 @@ struct Words {
   std::string second_order = "auto";
   std::string score = "inliers";
   std::string backend = "auto";
+  std::string no_viewpoint;
 };
 
 /** \brief The values that --second-order, --score and --backend take. */

@@ -57,6 +57,9 @@ takeWords(const Words& words, Options& options)
   options.parameters.second_order = kSecondOrders.at(words.second_order);
   options.parameters.score_metric = kScores.at(words.score);
   options.backend = kBackends.at(words.backend);
+  const std::string& unknown = words.no_viewpoint;
+  options.source_viewpoint_known = unknown.empty() || unknown == "target";
+  options.target_viewpoint_known = unknown.empty() || unknown == "source";
   if (words.features == "pcl")
     options.pcl_features = true;
   else if (!words.features.empty() && words.features != "native")
@@ -83,6 +86,20 @@ asOption(std::string message)
   return "--" + message;
 }
 
+/** \brief "--no-viewpoint source" as one word: an option whose value may be left out would
+ * take the path behind it. */
+std::vector<std::string>
+joinedViewpoints(std::vector<std::string> arguments)
+{
+  for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
+    if (arguments[i] == "--no-viewpoint" &&
+        (arguments[i + 1] == "source" || arguments[i + 1] == "target")) {
+      arguments[i] += "=" + arguments[i + 1];
+      arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    }
+  return arguments;
+}
+
 /** \brief What CLI11 can't know. */
 void
 check(const Options& options)
@@ -105,7 +122,7 @@ check(const Options& options)
     throw UsageError("--view is not built into this program (no PCL visualization was "
                      "found when it was built)");
   try {
-    options.parametersFor(options.leaf).validate();
+    options.pairOptions().parametersFor(options.leaf.value_or(0)).validate();
   }
   catch (const std::invalid_argument& error) {
     throw UsageError(asOption(error.what()));
@@ -116,28 +133,35 @@ check(const Options& options)
 
 } // namespace
 
-Parameters
-Options::parametersFor(const std::optional<double>& resolution) const
+PairOptions
+Options::pairOptions() const
 {
-  const Parameters lengths =
-      resolution ? Parameters::fromResolution(*resolution) : Parameters();
-  Parameters result = parameters;
-  result.length_tolerance = length_tolerance.value_or(lengths.length_tolerance);
-  result.min_length_sum = min_length_sum.value_or(lengths.min_length_sum);
-  result.inlier_distance = inlier_distance.value_or(lengths.inlier_distance);
+  PairOptions result;
+  result.resolution = leaf;
+  result.parameters = parameters;
+  result.length_tolerance = length_tolerance;
+  result.min_length_sum = min_length_sum;
+  result.inlier_distance = inlier_distance;
+  result.neighbors = neighbors;
+  result.mutual = mutual;
+  result.cloud_check = !fast;
   return result;
 }
 
 std::optional<Options>
 parseOptions(int argc, char** argv)
 {
+  const std::vector<std::string> arguments = joinedViewpoints({argv, argv + argc});
+  std::vector<const char*> words_given;
+  for (const std::string& argument : arguments)
+    words_given.push_back(argument.c_str());
   Options options;
   Words words;
   CLI::App app(kDescription, "pcl_flashreg_align");
   app.set_version_flag("--version", std::string("pcl_flashreg_align ") + version());
   app.footer(kFooter);
   addOptions(app, options, words);
-  if (!program::parse(app, argc, argv))
+  if (!program::parse(app, static_cast<int>(words_given.size()), words_given.data()))
     return std::nullopt;
   takeWords(words, options);
   check(options);

@@ -5,7 +5,7 @@
 
 #include "../program/program.h"
 
-#include <pcl_flashreg/parameters.h>
+#include <pcl_flashreg/pair_registration.h>
 
 #include <cstddef>
 #include <optional>
@@ -42,22 +42,22 @@ struct Options {
   std::optional<float> length_tolerance;
   std::optional<float> min_length_sum;
   std::optional<float> inlier_distance;
-  /** \brief Everything but the lengths, which parametersFor() adds. */
+  /** \brief Everything but the lengths. */
   Parameters parameters;
 
   std::size_t neighbors = 1;
   bool mutual = false;
   /** \brief Leave the clouds out of the decision which pose is right. */
   bool fast = false;
-  /** \brief Whether the sensors stood at the VIEWPOINT of their clouds. */
-  bool viewpoints_known = true;
+  /** \brief Whether the sensor stood at the VIEWPOINT of its cloud. */
+  bool source_viewpoint_known = true;
+  bool target_viewpoint_known = true;
   BackendKind backend = BackendKind::Auto;
   unsigned threads = 0;
 
-  /** \brief The estimator's parameters: lengths from the resolution (the indoor preset,
-   * if there is none), and over them those that were given on their own. */
-  Parameters
-  parametersFor(const std::optional<double>& resolution) const;
+  /** \brief All but what comes from files. */
+  PairOptions
+  pairOptions() const;
 };
 
 /** \brief Parses the command line and checks what can be checked without reading a

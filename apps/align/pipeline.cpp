@@ -5,12 +5,13 @@
 
 #include "../io/error.h"
 #include "../io/pcl_cloud.h"
-#include "matching.h"
+#include "../io/scan_input.h"
 #include "modules.h"
 
-#include <pcl_flashreg/estimator.h>
-#include <pcl_flashreg/impl/cloud_buffer.hpp>
+#include <pcl_flashreg/impl/stopwatch.hpp>
+#include <pcl_flashreg/resolution.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace pcl_flashreg::align {
@@ -26,296 +27,263 @@ shortNumber(double value)
   return text.str();
 }
 
-/** \brief A cloud ready for PCL. */
-struct Side {
-  const InputCloud& input;
-  io::ShiftedCloud shifted;
-
-  /** \brief Frame of the file. Nothing where the cloud lies so far from the origin that
-   * no sensor can have stood there, which is what a file without one says. */
-  std::optional<Eigen::Vector3d> viewpoint;
-
-  explicit Side(const InputCloud& cloud)
-      : input(cloud), shifted(io::toPclCloud(cloud.xyz))
-  {
-    const Eigen::Vector3d stated(cloud.cloud.viewpoint.data());
-    if (!shifted.shift.isZero(0) && stated.isZero(0))
-      return;
-    viewpoint = stated;
-    shifted.points->sensor_origin_.head<3>() = (stated - shifted.shift).cast<float>();
-  }
-};
-
-/** \brief What the estimator works on. */
-struct Matched {
-  RankedCorrespondences correspondences;
-  detail::CloudBuffer<double> source, target;
-  /** \brief Of the two clouds; nothing where they have no say. */
-  std::optional<CloudPairView<double>> clouds;
-};
-
-using Estimate = double (*)(const pcl::PointCloud<pcl::PointXYZ>& points,
-                            const pcl::Indices& indices);
-
-struct Resolutions {
-  double source, target;
-
-  double
-  coarser() const
-  {
-    return std::max(source, target);
-  }
-};
-
-Resolutions
-estimateBoth(const Side& source, const Side& target, Estimate estimate)
+/** \brief A cloud as a registration takes it. */
+ScanInput<double>
+scanInput(const std::optional<InputCloud>& cloud,
+          const std::optional<InputFeatures>& features,
+          bool viewpoint_known)
 {
-  const auto resolutionOf = [&](const Side& side) {
+  if (!cloud)
+    return {};
+  ScanInput<double> input = io::scanInput(cloud->cloud, cloud->xyz);
+  input.viewpoint_known = viewpoint_known;
+  if (features)
+    input.features = {features->values.data(),
+                      features->values.size() / features->dimension,
+                      features->dimension,
+                      features->dimension};
+  return input;
+}
+
+/** \brief Keypoints that PCL's classes made, in the place of their cloud. */
+class PclKeypoints {
+public:
+  PclKeypoints(const ScanInput<double>& cloud,
+               const Eigen::Matrix3Xd& xyz,
+               double resolution,
+               unsigned threads,
+               FeatureTimings& timings)
+      : input_(cloud)
+  {
+    const io::ShiftedCloud shifted = io::toPclCloud(xyz);
+    if (shifted.shift.isZero(0) || !cloud.viewpoint.isZero(0))
+      shifted.points->sensor_origin_.head<3>() =
+          (cloud.viewpoint - shifted.shift).cast<float>();
+    FpfhTimings spent;
+    loadPclFeatures()(*shifted.points, resolution, threads, spent, fpfh_);
+    timings.voxel_grid = spent.voxel_grid;
+    timings.normals = spent.normals;
+    timings.feature_histograms = spent.features;
+    for (const auto& point : *fpfh_.points) {
+      const Eigen::Vector3d p = point.getVector3fMap().cast<double>() + shifted.shift;
+      xyz_.insert(xyz_.end(), p.data(), p.data() + 3);
+    }
+    input_.points = {xyz_.data(), fpfh_.points->size(), 3, nullptr, 0};
+    input_.normals = fpfh_.normals->empty() ? nullptr : (*fpfh_.normals)[0].normal;
+    input_.normal_stride = sizeof(pcl::Normal) / sizeof(float);
+    input_.features = detail::viewOf(*fpfh_.features);
+  }
+
+  const ScanInput<double>&
+  input() const
+  {
+    return input_;
+  }
+
+private:
+  FpfhCloud fpfh_;
+  std::vector<double> xyz_;
+  ScanInput<double> input_;
+};
+
+/** \brief One run: what it is made from, and what people are told on the way. */
+class Run {
+public:
+  Run(const Options& options, const Inputs& inputs, const Progress& progress)
+      : options_(options),
+        inputs_(inputs),
+        progress_(progress),
+        source_(scanInput(
+            inputs.source, inputs.source_features, options.source_viewpoint_known)),
+        target_(scanInput(
+            inputs.target, inputs.target_features, options.target_viewpoint_known))
+  {
+  }
+
+  PairResult
+  align(PairRegistration& registration)
+  {
+    PairOptions options = options_.pairOptions();
+    options.guess = inputs_.guess;
+    options.on_step = [&](const PairProgress& at) { tell(at); };
     try {
-      return estimate(*side.shifted.points, {});
+      if (options_.pcl_features)
+        return alignPclKeypoints(registration, options);
+      if (inputs_.correspondences) {
+        const io::Correspondences& given = *inputs_.correspondences;
+        const CorrespondenceView<double> view{
+            given.source.data(), given.target.data(), given.size(), nullptr};
+        return registration.align(source_, target_, view, options);
+      }
+      return registration.align(source_, target_, options);
     }
     catch (const std::invalid_argument& error) {
-      throw InputError(side.input.path + ": " + error.what());
+      complain(error.what());
     }
-  };
-  return {resolutionOf(source), resolutionOf(target)};
-}
-
-void
-askForTheUnit(const Resolutions& estimated, const Progress& progress)
-{
-  constexpr double FAR_APART = 5;
-  if (estimated.coarser() > FAR_APART * std::min(estimated.source, estimated.target))
-    progress.note("the source by itself would be seen at a resolution of " +
-                  shortNumber(estimated.source) + ", the target at " +
-                  shortNumber(estimated.target) + ": are both in the same unit?");
-}
-
-/** \brief Complains about a leaf that was given, and says which would suit. */
-[[noreturn]] void
-failLeaf(const Side& side, double leaf, const std::string& problem)
-{
-  const double better = estimateResolution(*side.shifted.points);
-  throw UsageError("--leaf " + shortNumber(leaf) + ": " + problem + "; about " +
-                   shortNumber(better) + " would suit " + side.input.path);
-}
-
-struct Keypoints {
-  Eigen::Matrix3Xd xyz;
-  FpfhCloud described;
-};
-
-Keypoints
-describe(const Side& side,
-         const Options& options,
-         const Outcome& outcome,
-         FeatureExtractor& extractor,
-         StepClock& clock)
-{
-  Keypoints keypoints;
-  FpfhTimings timings;
-  try {
-    const auto& points = *side.shifted.points;
-    if (options.pcl_features)
-      loadPclFeatures()(
-          points, *outcome.resolution, options.threads, timings, keypoints.described);
-    else
-      keypoints.described =
-          computeFpfh(points, {}, *outcome.resolution, extractor, &timings);
   }
-  catch (const std::invalid_argument& error) {
-    if (options.leaf)
-      failLeaf(side, *options.leaf, error.what());
-    throw InputError(side.input.path + ": " + error.what());
+
+private:
+  PairResult
+  alignPclKeypoints(PairRegistration& registration, PairOptions options)
+  {
+    if (!options.resolution)
+      options.resolution = registration.chooseResolution(source_, target_);
+    FeatureTimings source_time, target_time;
+    const auto describe = [&](const ScanInput<double>& cloud,
+                              const InputCloud& input,
+                              PairStep step,
+                              FeatureTimings& time) {
+      tell({step, *options.resolution});
+      return PclKeypoints(
+          cloud, input.xyz, *options.resolution, options_.threads, time);
+    };
+    const auto source =
+        describe(source_, *inputs_.source, PairStep::SourceScan, source_time);
+    const auto target =
+        describe(target_, *inputs_.target, PairStep::TargetScan, target_time);
+    PairResult result = registration.align(source.input(), target.input(), options);
+    result.timings.source = source_time;
+    result.timings.target = target_time;
+    return result;
   }
-  const auto& points = *keypoints.described.points;
-  constexpr std::size_t needed = 12;
-  if (points.size() < needed) {
-    const std::string left = points.empty()
-                                 ? "no point"
-                                 : "only " + std::to_string(points.size()) + " points";
+
+  void
+  tell(const PairProgress& at)
+  {
+    step_ = at.step;
+    switch (at.step) {
+    case PairStep::Resolution:
+      return progress_.say("estimating the resolution");
+    case PairStep::SourceScan:
+      return progress_.say("describing the source, voxels of " +
+                           shortNumber(at.resolution));
+    case PairStep::TargetScan:
+      return progress_.say("describing the target");
+    case PairStep::Matching:
+      requireKeypoints(*inputs_.source, at.source_keypoints, at.resolution);
+      requireKeypoints(*inputs_.target, at.target_keypoints, at.resolution);
+      warnOfLongMatching(at.source_keypoints, at.target_keypoints);
+      return progress_.say("matching");
+    case PairStep::Estimation:
+      return progress_.say("estimating the pose from " +
+                           std::to_string(at.correspondences) + " correspondences");
+    }
+  }
+
+  void
+  requireKeypoints(const InputCloud& cloud,
+                   std::size_t keypoints,
+                   double resolution) const
+  {
+    constexpr std::size_t NEEDED = 12;
+    if (keypoints >= NEEDED || inputs_.source_features)
+      return;
+    const std::string left =
+        keypoints == 0 ? "no point" : "only " + std::to_string(keypoints) + " points";
     const std::string problem = "leaves " + left +
                                 " that can be described, while a trusted pose takes " +
-                                std::to_string(needed);
-    if (options.leaf)
-      failLeaf(side, *options.leaf, problem);
-    throw InputError(side.input.path + ": the voxel grid of " +
-                     shortNumber(*outcome.resolution) + " " + problem +
+                                std::to_string(NEEDED);
+    if (options_.leaf)
+      failLeaf(cloud, problem);
+    throw InputError(cloud.path + ": the voxel grid of " + shortNumber(resolution) +
+                     " " + problem +
                      " (--leaf sets another; are both clouds in the same unit?)");
   }
-  keypoints.xyz.resize(3, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    keypoints.xyz.col(static_cast<Eigen::Index>(i)) =
-        points[i].getVector3fMap().cast<double>() + side.shifted.shift;
-  clock.book(&Times::voxel_grid, timings.voxel_grid);
-  clock.book(&Times::normals, timings.normals);
-  clock.book(&Times::features, timings.features);
-  clock.finish(&Times::copying);
-  return keypoints;
-}
 
-FeatureView
-viewOf(const pcl::PointCloud<pcl::FPFHSignature33>& features)
-{
-  constexpr std::size_t dimension = 33;
-  static_assert(sizeof(pcl::FPFHSignature33) == dimension * sizeof(float));
-  return {features[0].histogram, features.size(), dimension, dimension};
-}
+  /** \brief Matching grows faster than the number of keypoints. */
+  void
+  warnOfLongMatching(std::size_t sources, std::size_t targets) const
+  {
+    // Some ten seconds on two cores, going by 266 k with 254 k keypoints in 1.4 s.
+    constexpr double MANY_PAIRS = 5e11;
+    if (static_cast<double>(sources) * static_cast<double>(targets) > MANY_PAIRS)
+      progress_.note("matching " + std::to_string(sources) + " with " +
+                     std::to_string(targets) +
+                     " keypoints takes long; a larger --leaf leaves fewer of them");
+  }
 
-FeatureView
-viewOf(const InputFeatures& features)
-{
-  return {features.values.data(),
-          features.values.size() / features.dimension,
-          features.dimension,
-          features.dimension};
-}
+  /** \brief Complains about a leaf that was given, and says which would suit. */
+  [[noreturn]] void
+  failLeaf(const InputCloud& cloud, const std::string& problem) const
+  {
+    const double better = estimateResolution(*io::toPclCloud(cloud.xyz).points);
+    throw UsageError("--leaf " + shortNumber(*options_.leaf) + ": " + problem +
+                     "; about " + shortNumber(better) + " would suit " + cloud.path);
+  }
 
-/** \brief Matching grows faster than the number of keypoints. */
-void
-warnOfLongMatching(const Keypoints& source,
-                   const Keypoints& target,
-                   const Progress& progress)
-{
-  // Some ten seconds on two cores, going by 266 k with 254 k keypoints in 1.4 s.
-  constexpr double MANY_PAIRS = 5e11;
-  const auto sources = source.xyz.cols(), targets = target.xyz.cols();
-  if (static_cast<double>(sources) * static_cast<double>(targets) > MANY_PAIRS)
-    progress.note("matching " + std::to_string(sources) + " with " +
-                  std::to_string(targets) +
-                  " keypoints takes long; a larger --leaf leaves fewer of them");
-}
+  /** \brief What the core can't work with, in terms of what was given here. */
+  [[noreturn]] void
+  complain(const std::string& problem) const
+  {
+    const bool of_source = step_ == PairStep::SourceScan;
+    const InputCloud& cloud = of_source ? *inputs_.source : *inputs_.target;
+    if (step_ != PairStep::SourceScan && step_ != PairStep::TargetScan)
+      throw InputError(problem);
+    if (options_.leaf)
+      failLeaf(cloud, problem);
+    throw InputError(cloud.path + ": " + problem);
+  }
 
-void
-gatherClouds(const Side& source,
-             const FpfhCloud& from,
-             const Side& target,
-             const FpfhCloud& to,
-             double resolution,
-             bool viewpoints_known,
-             Matched& matched)
-{
-  const auto viewpoint = [&](const Side& side) {
-    return viewpoints_known ? side.viewpoint : std::nullopt;
-  };
-  matched.source.gather(from, source.shifted.shift, viewpoint(source));
-  matched.target.gather(to, target.shifted.shift, viewpoint(target));
-  matched.clouds =
-      CloudPairView<double>{matched.source.view(), matched.target.view(), resolution};
-}
+  const Options& options_;
+  const Inputs& inputs_;
+  const Progress& progress_;
+  ScanInput<double> source_, target_;
+  PairStep step_ = PairStep::Resolution;
+};
 
 void
-matchClouds(const Options& options,
-            const Inputs& inputs,
-            const Progress& progress,
-            StepClock& clock,
-            Outcome& outcome,
-            Matched& matched)
+askForTheUnit(const PairResult& result, const Progress& progress)
 {
-  const Side source(*inputs.source);
-  const Side target(*inputs.target);
-  clock.finish(&Times::copying);
-  const auto match = [&](const auto&... points_and_features) {
-    progress.say("matching");
-    matched.correspondences = matchPoints(
-        points_and_features..., options.neighbors, options.mutual, options.threads);
-    clock.finish(&Times::matching);
-  };
-  std::optional<Resolutions> estimated;
-  if (!options.leaf)
-    estimated =
-        estimateBoth(source,
-                     target,
-                     inputs.source_features ? &estimateVoxelSize<pcl::PointXYZ>
-                                            : &estimateResolution<pcl::PointXYZ>);
-  outcome.resolution = estimated ? estimated->coarser() : *options.leaf;
-  clock.finish(&Times::resolution);
-  if (inputs.source_features) {
-    match(source.input.xyz,
-          viewOf(*inputs.source_features),
-          target.input.xyz,
-          viewOf(*inputs.target_features));
+  constexpr double FAR_APART = 5;
+  if (!result.source_estimate || !result.target_estimate)
     return;
-  }
-  FeatureExtractor extractor(options.threads);
-  progress.say("describing the source, voxels of " + shortNumber(*outcome.resolution));
-  const Keypoints from = describe(source, options, outcome, extractor, clock);
-  progress.say("describing the target");
-  const Keypoints to = describe(target, options, outcome, extractor, clock);
-  if (estimated)
-    askForTheUnit(*estimated, progress);
-  warnOfLongMatching(from, to, progress);
-  match(from.xyz,
-        viewOf(*from.described.features),
-        to.xyz,
-        viewOf(*to.described.features));
-  if (!options.fast)
-    gatherClouds(source,
-                 from.described,
-                 target,
-                 to.described,
-                 *outcome.resolution,
-                 options.viewpoints_known,
-                 matched);
-  clock.finish(&Times::copying);
-}
-
-/** \brief For given correspondences: --leaf, or the voxel size of their own points, of
- * the side with more distinct ones. Nothing if they are too few to tell. */
-std::optional<double>
-resolutionFor(const Options& options, const io::Correspondences& given)
-{
-  if (options.leaf)
-    return options.leaf;
-  try {
-    return std::min(estimateVoxelSize(*io::toPclCloud(given.source).points),
-                    estimateVoxelSize(*io::toPclCloud(given.target).points));
-  }
-  catch (const std::invalid_argument&) {
-    return std::nullopt;
-  }
+  const double source = *result.source_estimate, target = *result.target_estimate;
+  if (std::max(source, target) > FAR_APART * std::min(source, target))
+    progress.note("the source by itself would be seen at a resolution of " +
+                  shortNumber(source) + ", the target at " + shortNumber(target) +
+                  ": are both in the same unit?");
 }
 
 } // namespace
 
 Outcome
-alignInputs(const Options& options,
-            const Inputs& inputs,
-            const Progress& progress,
-            StepClock& clock)
+alignInputs(const Options& options, const Inputs& inputs, const Progress& progress)
 {
-  Estimator estimator(options.backend, options.threads);
-  clock.finish(&Times::setup);
+  const detail::Stopwatch setup;
+  PairRegistration registration(options.backend, options.threads);
   Outcome outcome;
-  Matched matched;
-  if (inputs.correspondences) {
-    outcome.resolution = resolutionFor(options, *inputs.correspondences);
-    clock.finish(&Times::resolution);
-  }
-  else {
-    matchClouds(options, inputs, progress, clock, outcome, matched);
-  }
-  const std::vector<float>& ranks = matched.correspondences.ranks;
-  const io::Correspondences& given =
-      inputs.correspondences ? *inputs.correspondences : matched.correspondences.points;
-  outcome.correspondences = given.size();
-  outcome.parameters = options.parametersFor(outcome.resolution);
-  progress.say("estimating the pose from " + std::to_string(given.size()) +
-               " correspondences");
-  const CorrespondenceView<double> view{given.source.data(),
-                                        given.target.data(),
-                                        given.size(),
-                                        ranks.empty() ? nullptr : ranks.data()};
-  outcome.result = estimator.estimate(view,
-                                      outcome.parameters,
-                                      inputs.guess,
-                                      matched.clouds ? &*matched.clouds : nullptr);
-  const StageTimings& stages = outcome.result.timings_ms;
-  clock.book(&Times::pose, stages.total - stages.cloud_check);
-  clock.book(&Times::cloud_check, stages.cloud_check);
-  clock.finish(&Times::copying);
-  outcome.times = clock.times();
+  outcome.setup_ms = setup.milliseconds();
+  outcome.pair = Run(options, inputs, progress).align(registration);
+  if (!inputs.source_features)
+    askForTheUnit(outcome.pair, progress);
   return outcome;
+}
+
+std::vector<Step>
+stepsOf(const Outcome& outcome)
+{
+  const PairTimings& t = outcome.pair.timings;
+  const auto both = [&](double FeatureTimings::*step) {
+    return t.source.*step + t.target.*step;
+  };
+  std::vector<Step> steps = {
+      {"reading", outcome.reading_ms},
+      {"setup", outcome.setup_ms},
+      {"resolution", t.resolution},
+      {"voxel grid", both(&FeatureTimings::voxel_grid)},
+      {"normals",
+       both(&FeatureTimings::neighbor_grid) + both(&FeatureTimings::normals)},
+      {"features",
+       both(&FeatureTimings::point_histograms) +
+           both(&FeatureTimings::feature_histograms)},
+      {"matching", t.matching},
+      {"pose", t.estimation.total - t.estimation.cloud_check, true},
+      {"cloud check", t.estimation.cloud_check, true}};
+  double rest = outcome.total_ms;
+  for (const Step& step : steps)
+    rest -= step.milliseconds;
+  steps.push_back({"copying", rest});
+  return steps;
 }
 
 } // namespace pcl_flashreg::align

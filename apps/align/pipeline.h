@@ -4,34 +4,41 @@
 #pragma once
 
 #include "inputs.h"
-#include "times.h"
 
-#include <pcl_flashreg/result.h>
+#include <pcl_flashreg/pair_registration.h>
 
-#include <optional>
+#include <vector>
 
 namespace pcl_flashreg::align {
 
-/** \brief What came out, and what it was made from. */
+/** \brief What came out, and the time that it took from the first file on. */
 struct Outcome {
-  Result result;
-  Parameters parameters;
-  std::size_t correspondences = 0;
-  /** \brief Voxel size; nothing if there is no --leaf and the correspondences are too
-   * few to estimate it. */
-  std::optional<double> resolution;
-  Times times;
+  PairResult pair;
+  /** \brief Files to coordinates in double precision. */
+  double reading_ms = 0;
+  /** \brief Choosing and starting the backend. */
+  double setup_ms = 0;
+  /** \brief From the program's start to the pose. */
+  double total_ms = 0;
 };
 
-/** \param[in,out] clock started before anything was read
- * \throws UsageError if --leaf does not suit the clouds
+/** \brief A step's name for people, and its time. */
+struct Step {
+  const char* name;
+  double milliseconds;
+  /** \brief It is a part of the estimator's time. */
+  bool of_estimator = false;
+};
+
+/** \brief All steps in their order; they add up to the total. */
+std::vector<Step>
+stepsOf(const Outcome& outcome);
+
+/** \throws UsageError if --leaf does not suit the clouds
  * \throws io::InputError if the clouds give nothing to work with
  * \throws BackendError, std::bad_alloc if the machine fails
  */
 Outcome
-alignInputs(const Options& options,
-            const Inputs& inputs,
-            const Progress& progress,
-            StepClock& clock);
+alignInputs(const Options& options, const Inputs& inputs, const Progress& progress);
 
 } // namespace pcl_flashreg::align

@@ -47,9 +47,9 @@ formatPose(const RigidTransform& pose)
 std::string
 formatCounts(const Outcome& outcome)
 {
-  const Result& result = outcome.result;
+  const Result& result = outcome.pair.pose;
   std::string text = std::to_string(result.inliers.size()) + " of " +
-                     std::to_string(outcome.correspondences) + " correspondences";
+                     std::to_string(outcome.pair.correspondences) + " correspondences";
   if (result.correspondences_dropped > 0)
     text += ", of which " + std::to_string(result.correspondences_dropped) +
             " were left out (--max-correspondences)";
@@ -66,12 +66,12 @@ formatTimes(const Outcome& outcome)
 {
   constexpr std::size_t WIDTH = 88;
   const std::string margin(12, ' ');
-  std::string text = "time        " + rounded(outcome.times.total, 1) + " ms (" +
-                     outcome.result.backend + ")\n";
+  std::string text = "time        " + rounded(outcome.total_ms, 1) + " ms (" +
+                     outcome.pair.pose.backend + ")\n";
   std::string line = margin;
-  for (const Step& step : STEPS) {
-    const std::string time = rounded(outcome.times.*step.milliseconds, 1);
-    if (time == "0.0")
+  for (const Step& step : stepsOf(outcome)) {
+    const std::string time = rounded(step.milliseconds, 1);
+    if (time == "0.0" || time == "-0.0")
       continue;
     const std::string item = step.name + (' ' + time);
     if (line.size() + 2 + item.size() > WIDTH) {
@@ -88,7 +88,7 @@ formatTimes(const Outcome& outcome)
 std::string
 formatVerdict(const Outcome& outcome)
 {
-  const Result& result = outcome.result;
+  const Result& result = outcome.pair.pose;
   if (result.status != Status::Ok)
     return std::string("no pose found: ") + toString(result.status);
   std::string evidence =
@@ -100,20 +100,20 @@ formatVerdict(const Outcome& outcome)
   if (result.converged)
     return "pose found and trusted: " + evidence;
   return "pose found, but NOT trusted: " + evidence +
-         " (needed: " + rounded(outcome.parameters.min_confidence, 2) + ")";
+         " (needed: " + rounded(outcome.pair.parameters.min_confidence, 2) + ")";
 }
 
 std::string
 formatReport(const Options& options, const Outcome& outcome)
 {
   std::string text = formatVerdict(outcome) + '\n';
-  if (outcome.result.status == Status::Ok)
-    text +=
-        "transform, source to target:\n" + formatPose(outcome.result.T_target_source);
+  if (outcome.pair.pose.status == Status::Ok)
+    text += "transform, source to target:\n" +
+            formatPose(outcome.pair.pose.T_target_source);
   text += "inliers     " + formatCounts(outcome) + '\n';
-  if (outcome.resolution) {
+  if (outcome.pair.resolution != 0) {
     std::ostringstream resolution;
-    resolution << *outcome.resolution;
+    resolution << outcome.pair.resolution;
     text += "resolution  " + resolution.str() +
             (options.leaf ? "\n" : " (estimated; --leaf sets another)\n");
   }

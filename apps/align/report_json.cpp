@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace pcl_flashreg::align {
 namespace {
 
@@ -44,20 +46,18 @@ nameOf(Status status)
 Json
 timingsOf(const Outcome& outcome)
 {
-  const StageTimings& stages = outcome.result.timings_ms;
-  const Times& times = outcome.times;
-  Json timings = {{"reading", times.reading},
-                  {"setup", times.setup},
-                  {"resolution", times.resolution},
-                  {"voxel_grid", times.voxel_grid},
-                  {"normals", times.normals},
-                  {"features", times.features},
-                  {"matching", times.matching}};
+  Json timings = Json::object();
+  for (const Step& step : stepsOf(outcome)) {
+    std::string name = step.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    if (!step.of_estimator)
+      timings[name] = step.milliseconds;
+  }
+  const StageTimings& stages = outcome.pair.timings.estimation;
   for (const Stage& stage : STAGES)
     timings[stage.name] = stages.*stage.milliseconds;
   timings["estimation"] = stages.total;
-  timings["copying"] = times.copying;
-  timings["total"] = times.total;
+  timings["total"] = outcome.total_ms;
   return timings;
 }
 
@@ -105,7 +105,7 @@ parametersOf(const Parameters& parameters)
 std::string
 formatJson(const Options& options, const Outcome& outcome)
 {
-  const Result& result = outcome.result;
+  const Result& result = outcome.pair.pose;
   Json json;
   json["version"] = version();
   json["source"] = options.source;
@@ -115,14 +115,15 @@ formatJson(const Options& options, const Outcome& outcome)
   json["status"] = nameOf(result.status);
   json["transformation"] = rowsOf(result.T_target_source.toMatrix<double>());
   json["inliers"] = result.inliers.size();
-  json["correspondences"] = outcome.correspondences;
+  json["correspondences"] = outcome.pair.correspondences;
   json["correspondences_dropped"] = result.correspondences_dropped;
   json["correspondences_invalid"] = result.correspondences_invalid;
   json["score"] = result.score;
   json["distinctness"] = result.distinctness;
   json["evidence"] = evidenceOf(result.evidence);
-  json["resolution"] = outcome.resolution ? Json(*outcome.resolution) : Json();
-  json["parameters"] = parametersOf(outcome.parameters);
+  json["resolution"] =
+      outcome.pair.resolution != 0 ? Json(outcome.pair.resolution) : Json();
+  json["parameters"] = parametersOf(outcome.pair.parameters);
   json["backend"] = result.backend;
   json["second_order"] =
       result.second_order == SecondOrder::Exact ? "exact" : "bounded";

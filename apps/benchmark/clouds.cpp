@@ -10,7 +10,8 @@
 #include "provenance.h"
 #include "spread.h"
 
-#include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/impl/stopwatch.hpp>
+#include <pcl_flashreg/pair_registration.h>
 #include <pcl_flashreg/pcl_front_end.h>
 
 #include <pcl/kdtree/impl/kdtree_flann.hpp>
@@ -29,6 +30,7 @@ struct Options {
   std::string source, target;
   double leaf = 0;
   unsigned threads = 0;
+  bool fast = false;
   int runs = 20;
   int pcl_runs = 5;
 };
@@ -36,7 +38,7 @@ struct Options {
 /** \brief Milliseconds of one run, both clouds together. */
 struct Times {
   double voxel_grid = 0, normals = 0, features = 0, matching = 0, estimation = 0,
-         total = 0;
+         cloud_check = 0, total = 0;
 };
 
 constexpr std::pair<const char*, double Times::*> PARTS[] = {
@@ -45,24 +47,29 @@ constexpr std::pair<const char*, double Times::*> PARTS[] = {
     {"features", &Times::features},
     {"matching", &Times::matching},
     {"estimation", &Times::estimation},
+    {"cloud check", &Times::cloud_check},
     {"total", &Times::total}};
 
-/** \brief What a front end is to this program. */
-struct FrontEnd {
-  const char* name;
-  FpfhCloud (*describe)(const Cloud&, double, unsigned, FpfhTimings*);
-  std::vector<FeatureMatch> (*match)(const Features&, const Features&, unsigned);
-};
+/** \brief A cloud and the sensor's place, as both front ends take it. */
+struct Side {
+  Cloud::Ptr cloud;
+  ScanInput<float> input;
 
-FeatureView
-viewOf(const Features& features)
-{
-  return {features.empty() ? nullptr : features[0].histogram, features.size(), 33, 33};
-}
+  explicit Side(const std::string& path)
+  {
+    const io::Cloud file = io::readCloud(path);
+    const io::ShiftedCloud shifted = io::toPclCloud(io::coordinates(file));
+    cloud = shifted.points;
+    input.points = detail::FloatRows<pcl::PointXYZ>(*cloud, {}).view();
+    input.viewpoint = Eigen::Vector3d(file.viewpoint.data()) - shifted.shift;
+    input.viewpoint_known = shifted.shift.isZero(0);
+    cloud->sensor_origin_.head<3>() = input.viewpoint.cast<float>();
+  }
+};
 
 /** \brief One search after the other, as PCL's classes do it. */
 std::vector<FeatureMatch>
-matchWithFlann(const Features& source, const Features& target, unsigned)
+matchWithFlann(const Features& source, const Features& target)
 {
   pcl::KdTreeFLANN<pcl::FPFHSignature33> tree(false);
   tree.setInputCloud(target.makeShared());
@@ -75,101 +82,120 @@ matchWithFlann(const Features& source, const Features& target, unsigned)
   return matches;
 }
 
-constexpr FrontEnd FRONT_ENDS[] = {
-    {"native",
-     [](const Cloud& cloud, double leaf, unsigned threads, FpfhTimings* timings) {
-       return computeFpfh(cloud, {}, leaf, threads, timings);
-     },
-     [](const Features& source, const Features& target, unsigned threads) {
-       return matchFeatures(viewOf(source), viewOf(target), 1, threads);
-     }},
-    {"pcl",
-     [](const Cloud& cloud, double leaf, unsigned threads, FpfhTimings* timings) {
-       return computeFpfhWithPcl(cloud, {}, leaf, threads, timings);
-     },
-     &matchWithFlann}};
-
 /** \brief The pose and the times of one run. */
 struct Run {
   Times times;
-  Result result;
-  std::size_t source_keypoints = 0, target_keypoints = 0;
+  PairResult pair;
 };
 
+PairOptions
+pairOptions(const Options& options)
+{
+  PairOptions result;
+  result.resolution = options.leaf;
+  result.cloud_check = !options.fast;
+  return result;
+}
+
+void
+addEstimation(Run& run)
+{
+  const StageTimings& stages = run.pair.timings.estimation;
+  run.times.estimation = stages.total - stages.cloud_check;
+  run.times.cloud_check = stages.cloud_check;
+}
+
 Run
-runOnce(const FrontEnd& front_end,
-        const Cloud& source,
-        const Cloud& target,
-        Estimator& estimator,
-        const Options& options)
+runNative(const Side& source,
+          const Side& target,
+          PairRegistration& registration,
+          const Options& options)
 {
   Run run;
   const Stopwatch total;
-  FpfhCloud described[2];
-  for (int side = 0; side < 2; ++side) {
-    FpfhTimings timings;
-    described[side] = front_end.describe(
-        side == 0 ? source : target, options.leaf, options.threads, &timings);
+  run.pair = registration.align(source.input, target.input, pairOptions(options));
+  run.times.total = total.milliseconds();
+  for (const FeatureTimings* spent :
+       {&run.pair.timings.source, &run.pair.timings.target}) {
+    const FpfhTimings timings = detail::toFpfhTimings(*spent);
     run.times.voxel_grid += timings.voxel_grid;
     run.times.normals += timings.normals;
     run.times.features += timings.features;
   }
-  const Stopwatch matching;
-  const std::vector<FeatureMatch> matches =
-      front_end.match(*described[0].features, *described[1].features, options.threads);
-  run.times.matching = matching.milliseconds();
-  const Stopwatch estimation;
-  std::vector<float> xyz[2], ranks;
-  for (const FeatureMatch& match : matches) {
-    const int rows[2] = {match.query, match.match};
-    for (int side = 0; side < 2; ++side) {
-      const pcl::PointXYZ& point = (*described[side].points)[rows[side]];
-      xyz[side].insert(xyz[side].end(), {point.x, point.y, point.z});
-    }
-    ranks.push_back(match.squared_distance);
-  }
-  const CorrespondenceView<float> view{
-      xyz[0].data(), xyz[1].data(), matches.size(), ranks.data()};
-  run.result = estimator.estimate(view, Parameters::fromResolution(options.leaf));
-  run.times.estimation = estimation.milliseconds();
-  run.times.total = total.milliseconds();
-  run.source_keypoints = described[0].points->size();
-  run.target_keypoints = described[1].points->size();
+  run.times.matching = run.pair.timings.matching;
+  addEstimation(run);
   return run;
 }
+
+Run
+runPcl(const Side& source,
+       const Side& target,
+       PairRegistration& registration,
+       const Options& options)
+{
+  Run run;
+  const Stopwatch total;
+  FpfhCloud fpfh[2];
+  Scan scans[2];
+  for (int side = 0; side < 2; ++side) {
+    FpfhTimings timings;
+    fpfh[side] = computeFpfhWithPcl(*(side == 0 ? source : target).cloud,
+                                    {},
+                                    options.leaf,
+                                    options.threads,
+                                    &timings);
+    run.times.voxel_grid += timings.voxel_grid;
+    run.times.normals += timings.normals;
+    run.times.features += timings.features;
+    ScanInput<float> input = (side == 0 ? source : target).input;
+    detail::takeKeypoints(fpfh[side], input);
+    scans[side] = registration.makeScan(input, options.leaf);
+  }
+  const Stopwatch matching;
+  const std::vector<FeatureMatch> matches =
+      matchWithFlann(*fpfh[0].features, *fpfh[1].features);
+  run.times.matching = matching.milliseconds();
+  run.pair = registration.align(scans[0],
+                                scans[1],
+                                toCorrespondences(scans[0], scans[1], matches).view(),
+                                pairOptions(options));
+  run.times.total = total.milliseconds();
+  addEstimation(run);
+  return run;
+}
+
+constexpr std::pair<const char*, decltype(&runNative)> FRONT_ENDS[] = {
+    {"native", &runNative}, {"pcl", &runPcl}};
 
 void
 measureAndPrint(const Options& options)
 {
-  const Cloud::Ptr source =
-      io::toPclCloud(io::coordinates(io::readCloud(options.source))).points;
-  const Cloud::Ptr target =
-      io::toPclCloud(io::coordinates(io::readCloud(options.target))).points;
-  Estimator estimator(BackendKind::Cpu, options.threads);
+  const Side source(options.source), target(options.target);
+  PairRegistration registration(BackendKind::Cpu, options.threads);
   std::printf("%s, %s, pcl_flashreg %s (%s, %s)\n%zu and %zu points, voxels of %g\n",
               processorName().c_str(),
-              estimator.backendName().c_str(),
+              registration.backendName().c_str(),
               version(),
               commit(),
               buildType(),
-              source->size(),
-              target->size(),
+              source.cloud->size(),
+              target.cloud->size(),
               options.leaf);
   std::vector<Times> times[2];
   Run last[2];
   for (int i = 0; i < options.runs; ++i)
     for (int f = 0; f < 2; ++f)
       if (f == 0 || i < options.pcl_runs) {
-        last[f] = runOnce(FRONT_ENDS[f], *source, *target, estimator, options);
+        last[f] = FRONT_ENDS[f].second(source, target, registration, options);
         times[f].push_back(last[f].times);
       }
   for (int f = 0; f < 2 && !times[f].empty(); ++f)
     std::printf("%s: %zu and %zu keypoints, %zu inliers, %s; median of %zu runs\n",
-                FRONT_ENDS[f].name,
-                last[f].source_keypoints,
-                last[f].target_keypoints,
-                last[f].result.inliers.size(),
-                last[f].result.converged ? "trusted" : "not trusted",
+                FRONT_ENDS[f].first,
+                last[f].pair.source.size(),
+                last[f].pair.target.size(),
+                last[f].pair.pose.inliers.size(),
+                last[f].pair.pose.converged ? "trusted" : "not trusted",
                 times[f].size());
   std::printf("%-12s %10s %10s %10s %10s %8s\n",
               "ms",
@@ -208,6 +234,7 @@ declareOptions(CLI::App& app, Options& options)
       ->check(CLI::PositiveNumber);
   app.add_option("--threads", options.threads, "CPU threads; 0: all")
       ->capture_default_str();
+  app.add_flag("--fast", options.fast, "judge poses by the correspondences alone");
   app.add_option("--runs", options.runs, "runs of the native front end")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

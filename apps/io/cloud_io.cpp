@@ -88,6 +88,12 @@ readCloud(const std::string& path)
 }
 
 bool
+isReadableCloudPath(const std::string& path)
+{
+  return isWritableCloudPath(path) || extensionOf(path) == ".bin";
+}
+
+bool
 isWritableCloudPath(const std::string& path)
 {
   const std::string extension = extensionOf(path);

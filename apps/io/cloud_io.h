@@ -20,8 +20,11 @@ namespace pcl_flashreg::io {
 Cloud
 readCloud(const std::string& path);
 
-/** \brief Whether writeCloud() knows the format that the path's extension stands for.
- */
+/** \brief Whether the path's extension stands for a format that readCloud() knows. */
+bool
+isReadableCloudPath(const std::string& path);
+
+/** \brief Whether the path's extension stands for a format that writeCloud() knows. */
 bool
 isWritableCloudPath(const std::string& path);
 

@@ -3,33 +3,16 @@
 
 #include "pcl_cloud.h"
 
-#include <Eigen/Geometry>
-
-#include <limits>
+#include <pcl_flashreg/scan.h>
 
 namespace pcl_flashreg::io {
 namespace {
 
-Eigen::AlignedBox3d
-boundsOf(const Eigen::Matrix3Xd& xyz)
+Eigen::Vector3d
+shiftOf(const Eigen::Matrix3Xd& xyz)
 {
-  Eigen::AlignedBox3d box;
-  for (Eigen::Index i = 0; i < xyz.cols(); ++i)
-    if (xyz.col(i).allFinite())
-      box.extend(xyz.col(i));
-  return box;
-}
-
-bool
-isFarFromOrigin(const Eigen::AlignedBox3d& box)
-{
-  constexpr double float_step = std::numeric_limits<float>::epsilon();
-  constexpr double tolerable = 1e-5;
-  if (box.isEmpty())
-    return false;
-  const double farthest =
-      box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
-  return farthest * float_step > tolerable * box.sizes().maxCoeff();
+  return singlePrecisionShift(BasicPointView<double>{
+      xyz.data(), static_cast<std::size_t>(xyz.cols()), 3, nullptr, 0});
 }
 
 } // namespace
@@ -37,16 +20,14 @@ isFarFromOrigin(const Eigen::AlignedBox3d& box)
 bool
 needsDoublePrecision(const Eigen::Matrix3Xd& xyz)
 {
-  return isFarFromOrigin(boundsOf(xyz));
+  return !shiftOf(xyz).isZero(0);
 }
 
 ShiftedCloud
 toPclCloud(const Eigen::Matrix3Xd& xyz)
 {
   ShiftedCloud result;
-  const Eigen::AlignedBox3d box = boundsOf(xyz);
-  if (isFarFromOrigin(box))
-    result.shift = box.center();
+  result.shift = shiftOf(xyz);
   result.points.reset(new pcl::PointCloud<pcl::PointXYZ>);
   result.points->reserve(static_cast<std::size_t>(xyz.cols()));
   result.points->is_dense = false;

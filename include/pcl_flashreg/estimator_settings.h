@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <pcl_flashreg/impl/lazy_workers.hpp>
+#include <pcl_flashreg/impl/lazy_registration.hpp>
 
 #include <optional>
 
@@ -33,17 +33,29 @@ public:
   void
   setNumberOfThreads(unsigned num_threads)
   {
-    workers_.configure(workers_.backend(), num_threads);
+    registration_.configure(registration_.backend(), num_threads);
   }
 
   /** \brief Where the stages of the estimator run; BackendKind::Auto by default. */
   void
   setBackend(BackendKind backend)
   {
-    workers_.configure(backend, workers_.numThreads());
+    registration_.configure(backend, registration_.numThreads());
   }
 
 protected:
+  /** \brief With these parameters, whatever the resolution. */
+  static PairOptions
+  optionsWith(const Parameters& parameters)
+  {
+    PairOptions options;
+    options.parameters = parameters;
+    options.length_tolerance = parameters.length_tolerance;
+    options.min_length_sum = parameters.min_length_sum;
+    options.inlier_distance = parameters.inlier_distance;
+    return options;
+  }
+
   EstimatorSettings() = default;
   ~EstimatorSettings() = default;
   EstimatorSettings(const EstimatorSettings&) = default;
@@ -52,7 +64,7 @@ protected:
 
   double resolution_ = 0;
   std::optional<Parameters> parameters_;
-  detail::LazyWorkers workers_;
+  detail::LazyRegistration registration_;
 };
 
 } // namespace pcl_flashreg

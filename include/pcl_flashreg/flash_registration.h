@@ -5,9 +5,8 @@
 
 #include <pcl_flashreg/estimator_settings.h>
 #include <pcl_flashreg/fpfh_features.h>
-#include <pcl_flashreg/impl/cloud_buffer.hpp>
+#include <pcl_flashreg/impl/cloud_side.hpp>
 #include <pcl_flashreg/impl/correspondence_buffer.hpp>
-#include <pcl_flashreg/impl/fpfh_cache.hpp>
 #include <pcl_flashreg/lazy_kdtree.h>
 
 #include <pcl/point_representation.h>
@@ -37,10 +36,9 @@ struct FlashRegistrationTimings {
  * Correspondences come from one of three places: setCorrespondences(); or the matches
  * of the descriptors given to setSourceFeatures() and setTargetFeatures(); or else, of
  * FPFH descriptors that the class computes itself. Lengths come from setParameters(),
- * or else from the resolution, which is setResolution(), or else estimated: with
- * estimateResolution() where the class computes the descriptors, with
- * estimateVoxelSize() where it does not, and the larger of source's and target's.
- * setMaxCorrespondenceDistance() sets the inlier distance over all of these.
+ * or else from the resolution, which is setResolution(), or else estimated: see
+ * PairOptions::resolution. setMaxCorrespondenceDistance() sets the inlier distance over
+ * all of these.
  *
  * - hasConverged() is Result::converged: getConfidence() reaches
  *   Parameters::min_confidence; and the inlier fraction, where one is set.
@@ -52,10 +50,10 @@ struct FlashRegistrationTimings {
  *   drop the descriptors of the cloud before: call them again after a cloud was edited
  *   in place. Descriptors of a target that stays are computed once as long as the
  *   resolution stays: set it, where many sources meet one target.
- * - Where the class computes the descriptors, the keypoints of both clouds decide with
- *   the correspondences which pose is right: setCloudCheck(). What lies between a
- *   cloud's sensor_origin_ and its points is taken to be empty. Set it, if the sensor
- *   stood elsewhere, or call setViewpointsKnown(false).
+ * - Both clouds decide with the correspondences which pose is right: setCloudCheck().
+ *   What lies between a cloud's sensor_origin_ and its points is taken to be empty. Set
+ *   it, if the sensor stood elsewhere, or call setViewpointsKnown(false). Normals are
+ *   computed; where descriptors are given and the points have normals, those are taken.
  * - A guess that is not the identity is scored as one more hypothesis. The final
  *   transformation is always from the source as given.
  * - setIndices() selects source points; features are still given for the full cloud.
@@ -153,6 +151,10 @@ public:
   void
   setFrontEnd(FrontEnd front_end)
   {
+    if (front_end != front_end_) {
+      source_side_.reset();
+      target_side_.reset();
+    }
     front_end_ = front_end;
   }
 
@@ -202,8 +204,8 @@ public:
   Parameters
   getParameters() const;
 
-  /** \brief Whether the clouds judge the hypotheses, too (the default); it costs a few
-   * milliseconds. Only where the class computes the descriptors. */
+  /** \brief Whether the clouds judge the hypotheses, too (the default), wherever the
+   * correspondences come from; it costs a few milliseconds. */
   void
   setCloudCheck(bool check)
   {
@@ -222,13 +224,42 @@ public:
   void
   setViewpointsKnown(bool known)
   {
-    viewpoints_known_ = known;
+    setSourceViewpointKnown(known);
+    setTargetViewpointKnown(known);
   }
 
+  /** \brief Whether that is so of both. */
   bool
   getViewpointsKnown() const
   {
-    return viewpoints_known_;
+    return getSourceViewpointKnown() && getTargetViewpointKnown();
+  }
+
+  /** \brief Of the source alone: a scan that is searched for in a map, which has no
+   * viewpoint, brings its own. */
+  void
+  setSourceViewpointKnown(bool known)
+  {
+    source_side_.setViewpointKnown(known);
+  }
+
+  bool
+  getSourceViewpointKnown() const
+  {
+    return source_side_.viewpointKnown();
+  }
+
+  /** \brief Of the target alone. */
+  void
+  setTargetViewpointKnown(bool known)
+  {
+    target_side_.setViewpointKnown(known);
+  }
+
+  bool
+  getTargetViewpointKnown() const
+  {
+    return target_side_.viewpointKnown();
   }
 
   /** \brief Fraction of the source points, in [0, 1], that must have a target point
@@ -341,14 +372,14 @@ public:
   const FpfhCloud&
   getSourceFpfh() const
   {
-    return source_cache_.fpfh();
+    return source_side_.fpfh();
   }
 
   /** \brief Keypoints and descriptors of the target that the class computed. */
   const FpfhCloud&
   getTargetFpfh() const
   {
-    return target_cache_.fpfh();
+    return target_side_.fpfh();
   }
 
   /** \brief Indices of the source points (of those in setIndices(), where set) that
@@ -391,27 +422,29 @@ private:
   void
   checkInput(const PointCloudSource& output) const;
 
-  /** \brief Fills correspondences_ and buffer_ from one of the three places. */
-  void
-  findCorrespondences();
-  void
-  takeGivenCorrespondences();
-  void
-  matchGivenFeatures();
-  void
-  matchComputedFeatures();
+  /** \brief What the settings say, but for the guess. */
+  PairOptions
+  pairOptions() const;
 
-  /** \brief Packs the keypoints, if they are to judge the hypotheses. */
-  void
-  gatherClouds(const FpfhCloud& source, const FpfhCloud& target);
+  /** \brief Registers the clouds, from one of the three places; fills correspondences_. */
+  PairResult
+  alignInputs(const PairOptions& options);
+  PairResult
+  alignCorrespondences(const ScanInput<float>& source,
+                       const ScanInput<float>& target,
+                       const PairOptions& options);
+  PairResult
+  alignGivenFeatures(ScanInput<float>& source,
+                     ScanInput<float>& target,
+                     const PairOptions& options);
+  PairResult
+  alignComputedFeatures(ScanInput<float>& source,
+                        ScanInput<float>& target,
+                        PairOptions options);
 
-  /** \brief Empty if all source points are used, as computeFpfh() wants it. */
+  /** \brief Empty if all source points are used. */
   pcl::Indices
   sourceIndices() const;
-
-  /** \brief For clouds that carry the caller's descriptors or correspondences. */
-  void
-  estimateGivenResolution();
 
   /** \brief The guess as a hypothesis, none if it is the identity.
    * \throws std::invalid_argument if it is not rigid */
@@ -447,16 +480,11 @@ private:
   int nr_samples_ = 3;
   float similarity_threshold_ = 0.6f;
 
-  detail::FpfhCache source_cache_;
-  detail::FpfhCache target_cache_;
+  detail::CloudSide source_side_;
+  detail::CloudSide target_side_;
   bool cloud_check_ = true;
-  bool viewpoints_known_ = true;
 
   detail::CorrespondenceBuffer buffer_;
-  detail::CloudBuffer<float> source_buffer_;
-  detail::CloudBuffer<float> target_buffer_;
-  /** \brief Of the two buffers; nothing where the clouds are not asked. */
-  std::optional<CloudPairView<float>> clouds_;
 
   Result result_;
   FlashRegistrationTimings timings_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "estimation/pipeline.h"
+#include "support/thread_pool.h"
 
 #include <memory>
 #include <optional>
@@ -28,9 +29,10 @@ public:
       Trace* trace) = 0;
 };
 
-/** \throws std::invalid_argument, BackendError, see cpu::selectKernels() */
+/** \param[in] pool must outlive the backend
+ * \throws std::invalid_argument, BackendError, see cpu::selectKernels() */
 std::unique_ptr<Backend>
-makeCpuBackend(unsigned num_threads);
+makeCpuBackend(ThreadPool& pool);
 
 /** \throws BackendError, with the reason, if this build has no CUDA backend or this machine
  * no device that it can use */

@@ -4,7 +4,6 @@
 #include <pcl_flashreg/feature_extractor.h>
 
 #include "scan/cpu/feature_stages.h"
-#include "scan/feature_pipeline.h"
 #include "scan/points.h"
 #include "support/require.h"
 
@@ -57,8 +56,12 @@ FeatureParameters::validate() const
 
 class FeatureExtractor::Impl {
 public:
-  explicit Impl(unsigned num_threads) : stages(cpu::selectKernels(), num_threads) {}
+  explicit Impl(unsigned num_threads)
+      : pool(num_threads), stages(cpu::selectKernels(), pool)
+  {
+  }
 
+  ThreadPool pool;
   cpu::FeatureStages stages;
 };
 
@@ -80,10 +83,11 @@ FeatureExtractor::describe(const PointView& points,
   check(points);
   parameters.validate();
   FeatureTimings spent;
-  DescribedCloud result = runFeaturePipeline(impl_->stages, points, parameters, spent);
+  runScanPipeline(
+      impl_->stages, points, {}, parameters, ScanContent::Descriptors, spent);
   if (timings)
     *timings = spent;
-  return result;
+  return impl_->stages.takeResult(ScanContent::Descriptors, false);
 }
 
 } // namespace pcl_flashreg

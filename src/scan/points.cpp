@@ -11,8 +11,9 @@
 
 namespace pcl_flashreg {
 
+template <typename Scalar>
 void
-check(const PointView& points)
+check(const BasicPointView<Scalar>& points)
 {
   constexpr auto MOST =
       static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
@@ -33,5 +34,10 @@ check(const PointView& points)
                                   std::to_string(points.size) + " points");
   }
 }
+
+template void
+check(const BasicPointView<float>&);
+template void
+check(const BasicPointView<double>&);
 
 } // namespace pcl_flashreg

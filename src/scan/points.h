@@ -12,26 +12,37 @@ namespace pcl_flashreg {
 
 /** \throws std::invalid_argument if the stride or an index is out of range, or the cloud
  * has more than 2^31 - 1 points */
+template <typename Scalar>
 void
-check(const PointView& points);
+check(const BasicPointView<Scalar>& points);
+
+/** \brief Which point of the whole cloud is the one at a position among those to use. */
+template <typename Scalar>
+std::size_t
+indexOf(const BasicPointView<Scalar>& points, std::size_t i)
+{
+  return points.indices ? static_cast<std::size_t>(points.indices[i]) : i;
+}
 
 /** \brief A point of a view, by its position among those to use. */
-inline const float*
-pointOf(const PointView& points, std::size_t i)
+template <typename Scalar>
+const Scalar*
+pointOf(const BasicPointView<Scalar>& points, std::size_t i)
 {
-  const auto at = points.indices ? static_cast<std::size_t>(points.indices[i]) : i;
-  return points.data + at * points.stride;
+  return points.data + indexOf(points, i) * points.stride;
 }
 
 /** \brief Number of points of a view to use. */
-inline std::size_t
-countOf(const PointView& points)
+template <typename Scalar>
+std::size_t
+countOf(const BasicPointView<Scalar>& points)
 {
   return points.indices ? points.index_count : points.size;
 }
 
-inline bool
-isFinite(const float* point)
+template <typename Scalar>
+bool
+isFinite(const Scalar* point)
 {
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
 }

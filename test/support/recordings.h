@@ -22,6 +22,14 @@ struct Recording {
   StageTimings timings;
 };
 
+/** \brief For a CPU backend that is compared with. */
+inline ThreadPool&
+oneThread()
+{
+  static ThreadPool pool(1);
+  return pool;
+}
+
 inline Recording
 record(Backend& backend,
        const Problem& problem,

@@ -7,26 +7,8 @@
 #include "../../io/file.h"
 #include "../../io/number_table.h"
 
-#include <pcl_flashreg/feature_matching.h>
-
 namespace pcl_flashreg::evaluate {
 namespace {
-
-void
-append(std::vector<double>& xyz, const Eigen::Vector3d& point)
-{
-  xyz.insert(xyz.end(), point.data(), point.data() + 3);
-}
-
-FeatureView
-viewOf(const FpfhCloud& cloud)
-{
-  const auto& features = *cloud.features;
-  return {features.empty() ? nullptr : features[0].histogram,
-          features.size(),
-          33,
-          sizeof(pcl::FPFHSignature33) / sizeof(float)};
-}
 
 io::Correspondences
 readFiles(const std::string& path)
@@ -55,26 +37,6 @@ readFiles(const std::string& path)
 }
 
 } // namespace
-
-Correspondences
-matchClouds(const DescribedCloud& source,
-            const DescribedCloud& target,
-            std::size_t neighbors,
-            unsigned threads)
-{
-  Correspondences matches;
-  for (const FeatureMatch& match : matchFeatures(
-           viewOf(source.keypoints), viewOf(target.keypoints), neighbors, threads)) {
-    append(matches.source,
-           (*source.keypoints.points)[match.query].getVector3fMap().cast<double>() +
-               source.shift);
-    append(matches.target,
-           (*target.keypoints.points)[match.match].getVector3fMap().cast<double>() +
-               target.shift);
-    matches.ranks.push_back(match.squared_distance);
-  }
-  return matches;
-}
 
 Correspondences
 readCorrespondences(const std::string& path)

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "described_cloud.h"
+#include "stored_scan.h"
 
 #include <optional>
 #include <string>
@@ -15,7 +15,8 @@ namespace pcl_flashreg::evaluate {
  * A file's name is made from the contents of the cloud's file, the voxel size, and what the
  * front end makes of a small made cloud: whatever changes, even in the code, leads to
  * another name. Files are written under another name and renamed, so that a crash leaves
- * none that is half done, and carry a checksum: one that is damaged counts as absent.
+ * none that is half done, and hold scans as Scan::serialize() writes them: one that is
+ * damaged counts as absent.
  */
 class FeatureCache {
 public:
@@ -26,15 +27,15 @@ public:
    * \throws io::InputError if the cloud cannot be read
    */
   std::string
-  keyOf(const std::string& cloud_path) const;
+  keyOf(const std::string& cloud_path, ScanContent content) const;
 
   /** \brief Nothing if there is no file of that key, or if it is not as it was written. */
-  std::optional<DescribedCloud>
+  std::optional<StoredScan>
   load(const std::string& key) const;
 
   /** \throws io::InputError if it cannot be written */
   void
-  save(const std::string& key, const DescribedCloud& cloud) const;
+  save(const std::string& key, const StoredScan& scan) const;
 
 private:
   std::string folder_;

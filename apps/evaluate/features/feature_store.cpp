@@ -5,11 +5,9 @@
 
 #include "../../io/cloud_io.h"
 #include "../../io/error.h"
-#include "../../io/pcl_cloud.h"
+#include "../../io/scan_input.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
-
-#include <limits>
 
 namespace pcl_flashreg::evaluate {
 
@@ -17,7 +15,7 @@ FeatureStore::FeatureStore(std::string root,
                            double leaf,
                            unsigned threads,
                            const std::string& cache_folder)
-    : root_(std::move(root)), leaf_(leaf), extractor_(threads)
+    : root_(std::move(root)), leaf_(leaf), maker_(BackendKind::Cpu, threads)
 {
   if (!cache_folder.empty())
     cache_.emplace(cache_folder, leaf);
@@ -31,11 +29,11 @@ FeatureStore::expect(const Pair& pair)
 }
 
 FeatureStore::Cloud
-FeatureStore::get(const std::string& path)
+FeatureStore::get(const std::string& path, ScanContent content)
 {
-  Cloud& cloud = clouds_[path];
+  Cloud& cloud = clouds_[{path, content}];
   if (!cloud)
-    cloud = describe(root_ + "/" + path);
+    cloud = describe(root_ + "/" + path, content);
   return cloud;
 }
 
@@ -44,41 +42,35 @@ FeatureStore::release(const Pair& pair)
 {
   for (const std::string& path : {pair.source, pair.target})
     if (--uses_[path] == 0) {
-      clouds_.erase(path);
+      clouds_.erase({path, ScanContent::Descriptors});
+      clouds_.erase({path, ScanContent::Surface});
       uses_.erase(path);
     }
 }
 
 FeatureStore::Cloud
-FeatureStore::describe(const std::string& path)
+FeatureStore::describe(const std::string& path, ScanContent content)
 {
   std::string key;
   if (cache_) {
-    key = cache_->keyOf(path);
+    key = cache_->keyOf(path, content);
     if (const auto cached = cache_->load(key))
-      return std::make_shared<DescribedCloud>(*cached);
+      return std::make_shared<StoredScan>(*cached);
   }
   const io::Cloud file = io::readCloud(path);
-  const io::ShiftedCloud cloud = io::toPclCloud(io::coordinates(file));
-  const auto described = std::make_shared<DescribedCloud>();
-  described->viewpoint = Eigen::Vector3d(file.viewpoint.data());
-  if (!cloud.shift.isZero(0) && described->viewpoint.isZero(0))
-    described->viewpoint.setConstant(std::numeric_limits<double>::quiet_NaN());
-  else
-    cloud.points->sensor_origin_.head<3>() =
-        (described->viewpoint - cloud.shift).cast<float>();
+  const Eigen::Matrix3Xd xyz = io::coordinates(file);
+  const auto stored = std::make_shared<StoredScan>();
   const detail::Stopwatch stopwatch;
   try {
-    described->keypoints = computeFpfh(*cloud.points, {}, leaf_, extractor_);
+    stored->scan = maker_.makeScan(io::scanInput(file, xyz), leaf_, content);
   }
   catch (const std::invalid_argument& error) {
     throw io::InputError(path + ": " + error.what());
   }
-  described->features_ms = stopwatch.milliseconds();
-  described->shift = cloud.shift;
+  stored->features_ms = stopwatch.milliseconds();
   if (cache_)
-    cache_->save(key, *described);
-  return described;
+    cache_->save(key, *stored);
+  return stored;
 }
 
 } // namespace pcl_flashreg::evaluate

@@ -4,8 +4,10 @@
 #pragma once
 
 #include "../datasets/pair.h"
-#include "described_cloud.h"
+#include "stored_scan.h"
 #include "feature_cache.h"
+
+#include <pcl_flashreg/pair_registration.h>
 
 #include <map>
 #include <memory>
@@ -19,7 +21,7 @@ namespace pcl_flashreg::evaluate {
  * let go after the last of them. */
 class FeatureStore {
 public:
-  using Cloud = std::shared_ptr<const DescribedCloud>;
+  using Cloud = std::shared_ptr<const StoredScan>;
 
   /** \param[in] cache_folder keeps features on disk; empty for not at all
    * \throws io::InputError if the cache's folder cannot be made
@@ -33,9 +35,9 @@ public:
   void
   expect(const Pair& pair);
 
-  /** \throws io::InputError, std::invalid_argument (see computeFpfh()) */
+  /** \throws io::InputError with the path */
   Cloud
-  get(const std::string& path);
+  get(const std::string& path, ScanContent content = ScanContent::Descriptors);
 
   /** \brief The pair is done: clouds that no other announced pair needs are dropped. */
   void
@@ -50,14 +52,14 @@ public:
 
 private:
   Cloud
-  describe(const std::string& path);
+  describe(const std::string& path, ScanContent content);
 
   std::string root_;
   double leaf_;
-  FeatureExtractor extractor_;
+  PairRegistration maker_;
   std::optional<FeatureCache> cache_;
   std::map<std::string, std::size_t> uses_;
-  std::map<std::string, Cloud> clouds_;
+  std::map<std::pair<std::string, ScanContent>, Cloud> clouds_;
 };
 
 } // namespace pcl_flashreg::evaluate

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-// This project's estimator.
+// This project's registration.
 
 #include "families.h"
 
-#include <pcl_flashreg/estimator.h>
-#include <pcl_flashreg/impl/cloud_buffer.hpp>
-
 #include <memory>
-#include <optional>
 
 namespace pcl_flashreg::evaluate {
 namespace {
@@ -17,39 +13,30 @@ namespace {
 /** \brief What is known of the clouds is told to the estimator. */
 enum class Clouds { Ignored, WithoutViewpoints, WithViewpoints };
 
-/** \brief A method's estimator, and room for the clouds of the pair at hand. */
+/** \brief A method's registration, and how it is told to go about. */
 class Flashreg {
 public:
-  Flashreg(BackendKind backend, Clouds clouds, const MethodSettings& settings)
-      : estimator_(backend, settings.threads),
-        clouds_(clouds),
-        parameters_(settings.parameters),
-        leaf_(settings.leaf)
+  Flashreg(BackendKind backend,
+           Clouds clouds,
+           SecondOrder second_order,
+           const MethodSettings& settings)
+      : registration_(backend, settings.threads), clouds_(clouds)
   {
-  }
-
-  void
-  setSecondOrder(SecondOrder second_order)
-  {
-    parameters_.second_order = second_order;
+    options_.resolution = settings.leaf;
+    options_.parameters = settings.parameters;
+    options_.parameters.second_order = second_order;
+    options_.cloud_check = clouds != Clouds::Ignored;
   }
 
   Answer
   run(const Problem& problem)
   {
-    const Correspondences& given = problem.correspondences;
-    const CorrespondenceView<double> view{given.source.data(),
-                                          given.target.data(),
-                                          given.size(),
-                                          given.ranks.empty() ? nullptr
-                                                              : given.ranks.data()};
-    CloudPairView<double> clouds;
-    const bool ask = clouds_ != Clouds::Ignored && problem.source && problem.target;
-    if (ask)
-      clouds = {
-          viewOf(*problem.source, source_), viewOf(*problem.target, target_), leaf_};
-    const Result result =
-        estimator_.estimate(view, parameters_, std::nullopt, ask ? &clouds : nullptr);
+    const Result result = registration_
+                              .align(told(problem.source),
+                                     told(problem.target),
+                                     problem.correspondences.view(),
+                                     options_)
+                              .pose;
     Answer answer;
     answer.found = result.status == Status::Ok;
     answer.T_target_source = result.T_target_source;
@@ -63,21 +50,15 @@ public:
   }
 
 private:
-  CloudView<double>
-  viewOf(const DescribedCloud& cloud, detail::CloudBuffer<double>& buffer) const
+  Scan
+  told(const Scan& scan) const
   {
-    std::optional<Eigen::Vector3d> viewpoint;
-    if (clouds_ == Clouds::WithViewpoints && cloud.viewpoint.allFinite())
-      viewpoint = cloud.viewpoint;
-    buffer.gather(cloud.keypoints, cloud.shift, viewpoint);
-    return buffer.view();
+    return clouds_ == Clouds::WithViewpoints ? scan : scan.withoutViewpoint();
   }
 
-  Estimator estimator_;
+  PairRegistration registration_;
   Clouds clouds_;
-  Parameters parameters_;
-  double leaf_;
-  detail::CloudBuffer<double> source_, target_;
+  PairOptions options_;
 };
 
 MethodEntry
@@ -88,8 +69,8 @@ entry(const std::string& name,
       SecondOrder second_order = SecondOrder::Auto)
 {
   const auto make = [=](const MethodSettings& settings) {
-    const auto method = std::make_shared<Flashreg>(backend, clouds, settings);
-    method->setSecondOrder(second_order);
+    const auto method =
+        std::make_shared<Flashreg>(backend, clouds, second_order, settings);
     return [=](const Problem& problem) { return method->run(problem); };
   };
   return {name, description, false, make};

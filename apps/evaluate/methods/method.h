@@ -3,10 +3,7 @@
 
 #pragma once
 
-#include "../features/correspondences.h"
-
-#include <pcl_flashreg/parameters.h>
-#include <pcl_flashreg/result.h>
+#include <pcl_flashreg/pair_registration.h>
 
 #include <functional>
 #include <optional>
@@ -18,9 +15,9 @@ namespace pcl_flashreg::evaluate {
 /** \brief What a method is given of a pair. */
 struct Problem {
   const Correspondences& correspondences;
-  /** \brief Null if the data set brings its own correspondences. */
-  const DescribedCloud* source = nullptr;
-  const DescribedCloud* target = nullptr;
+  /** \brief With descriptors, unless the data set brings its own correspondences; empty if
+   * it does so without clouds. */
+  Scan source, target;
 };
 
 /** \brief What a method says of a pair. */

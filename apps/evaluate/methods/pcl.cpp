@@ -5,6 +5,8 @@
 
 #include "families.h"
 
+#include <pcl_flashreg/fpfh_features.h>
+
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <pcl/registration/correspondence_rejection_sample_consensus.h>
@@ -56,14 +58,15 @@ runRansac(int iterations, double inlier_distance, const Correspondences& given)
 
 /** \brief Settings of PCL's tutorial "Robust pose estimation of rigid objects". */
 Answer
-runPrerejective(double leaf, const DescribedCloud& source, const DescribedCloud& target)
+runPrerejective(double leaf, const Scan& source, const Scan& target)
 {
+  const FpfhCloud from = detail::toFpfhCloud(source), to = detail::toFpfhCloud(target);
   pcl::SampleConsensusPrerejective<pcl::PointXYZ, pcl::PointXYZ, pcl::FPFHSignature33>
       align;
-  align.setInputSource(source.keypoints.points);
-  align.setSourceFeatures(source.keypoints.features);
-  align.setInputTarget(target.keypoints.points);
-  align.setTargetFeatures(target.keypoints.features);
+  align.setInputSource(from.points);
+  align.setSourceFeatures(from.features);
+  align.setInputTarget(to.points);
+  align.setTargetFeatures(to.features);
   align.setMaximumIterations(50000);
   align.setNumberOfSamples(3);
   align.setCorrespondenceRandomness(5);
@@ -82,8 +85,8 @@ runPrerejective(double leaf, const DescribedCloud& source, const DescribedCloud&
   const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
   answer.found = align.hasConverged();
   answer.trusted = answer.found;
-  answer.T_target_source = {R,
-                            T.topRightCorner<3, 1>() + target.shift - R * source.shift};
+  answer.T_target_source = {
+      R, T.topRightCorner<3, 1>() + target.shift() - R * source.shift()};
   answer.inliers = align.getInliers().size();
   answer.confidence = static_cast<double>(answer.inliers);
   return answer;
@@ -120,7 +123,7 @@ pclMethods()
            [](const MethodSettings& settings) {
              const double leaf = settings.leaf;
              return [leaf](const Problem& problem) {
-               return runPrerejective(leaf, *problem.source, *problem.target);
+               return runPrerejective(leaf, problem.source, problem.target);
              };
            }}};
 }

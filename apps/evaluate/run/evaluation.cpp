@@ -3,6 +3,7 @@
 
 #include "evaluation.h"
 
+#include "../../io/cloud_io.h"
 #include "../features/correspondences.h"
 #include "../features/feature_store.h"
 #include "../features/truth.h"
@@ -12,6 +13,7 @@
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
+#include <filesystem>
 #include <stdexcept>
 
 namespace pcl_flashreg::evaluate {
@@ -42,27 +44,59 @@ makeMethods(const Options& options, const Job& job)
 
 /** \brief A pair, ready for the methods. */
 struct Prepared {
-  FeatureStore::Cloud source, target;
+  Scan source, target;
   Correspondences correspondences;
   Times times;
 };
 
+/** \brief Data sets of correspondences may bring the clouds along. */
+bool
+hasClouds(const Pair& pair, const Job& job)
+{
+  const auto is_cloud = [&](const std::string& path) {
+    const std::string file = job.data.root + "/" + path;
+    return io::isReadableCloudPath(file) && std::filesystem::is_regular_file(file);
+  };
+  return is_cloud(pair.source) && is_cloud(pair.target);
+}
+
+void
+takeScans(const Pair& pair,
+          ScanContent content,
+          FeatureStore& store,
+          Prepared& prepared)
+{
+  const auto source = store.get(pair.source, content);
+  const auto target = store.get(pair.target, content);
+  prepared.source = source->scan;
+  prepared.target = target->scan;
+  prepared.times.features = source->features_ms + target->features_ms;
+}
+
 Prepared
-prepare(const Pair& pair, const Options& options, const Job& job, FeatureStore& store)
+prepare(const Pair& pair,
+        const Options& options,
+        const Job& job,
+        FeatureStore& store,
+        PairRegistration& registration)
 {
   Prepared prepared;
   if (!pair.correspondences.empty()) {
     prepared.correspondences =
         readCorrespondences(job.data.root + "/" + pair.correspondences);
+    if (hasClouds(pair, job))
+      takeScans(pair, ScanContent::Surface, store, prepared);
     return prepared;
   }
-  prepared.source = store.get(pair.source);
-  prepared.target = store.get(pair.target);
-  prepared.times.features = prepared.source->features_ms + prepared.target->features_ms;
-  const detail::Stopwatch matching;
-  prepared.correspondences = matchClouds(
-      *prepared.source, *prepared.target, options.neighbors, options.threads);
-  prepared.times.matching = matching.milliseconds();
+  takeScans(pair, ScanContent::Descriptors, store, prepared);
+  PairOptions matching;
+  matching.neighbors = options.neighbors;
+  const detail::Stopwatch stopwatch;
+  prepared.correspondences =
+      toCorrespondences(prepared.source,
+                        prepared.target,
+                        registration.match(prepared.source, prepared.target, matching));
+  prepared.times.matching = stopwatch.milliseconds();
   return prepared;
 }
 
@@ -83,8 +117,7 @@ evaluatePair(std::size_t number,
   record.correspondences = prepared.correspondences.size();
   record.inlier_ratio =
       inlierRatio(prepared.correspondences, truth, job.parameters.inlier_distance);
-  const Problem problem{
-      prepared.correspondences, prepared.source.get(), prepared.target.get()};
+  const Problem problem{prepared.correspondences, prepared.source, prepared.target};
   std::vector<Record> records;
   for (const NamedMethod& method : methods) {
     record.method = method.name;
@@ -108,6 +141,7 @@ evaluatePairs(const Options& options,
 {
   const std::vector<NamedMethod> methods = makeMethods(options, job);
   FeatureStore store(job.data.root, job.data.leaf, options.threads, options.cache);
+  PairRegistration registration(BackendKind::Cpu, options.threads);
   const TruthStore truths(job.data.root, options.cache);
   const auto pairAt = [&](std::size_t position) -> const Pair& {
     return job.data.pairs[job.pairs[position]];
@@ -117,7 +151,7 @@ evaluatePairs(const Options& options,
   Progress progress(pairs.size(), quiet);
   for (const std::size_t position : pairs) {
     const Pair& pair = pairAt(position);
-    const Prepared prepared = prepare(pair, options, job, store);
+    const Prepared prepared = prepare(pair, options, job, store, registration);
     done(evaluatePair(position, pair, truths.get(pair), prepared, methods, job));
     store.release(pair);
     progress.step();

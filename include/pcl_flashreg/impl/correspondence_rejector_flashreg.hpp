@@ -50,7 +50,13 @@ CorrespondenceRejectorFlashReg<PointT>::getRemainingCorrespondences(
   pcl::Correspondences remaining = original_correspondences;
   try {
     buffer_.gather(*input_, *target_, original_correspondences);
-    result_ = workers_.estimator().estimate(buffer_.view(), getParameters());
+    // A filter of correspondences goes by these: without clouds.
+    result_ = registration_.get()
+                  .align(ScanInput<float>(),
+                         ScanInput<float>(),
+                         buffer_.view(),
+                         optionsWith(getParameters()))
+                  .pose;
     if (result_.status == Status::Ok) {
       const pcl::Indices inliers = findInliers(original_correspondences);
       remaining.clear();

@@ -32,7 +32,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::setInputSource(
     const PointCloudSourceConstPtr& cloud)
 {
   resetResult();
-  source_cache_.reset();
+  source_side_.reset();
   if (cloud)
     Base::setInputSource(cloud);
   else
@@ -45,7 +45,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::setInputTarget(
     const PointCloudTargetConstPtr& cloud)
 {
   resetResult();
-  target_cache_.reset();
+  target_side_.reset();
   if (cloud)
     Base::setInputTarget(cloud);
   else
@@ -93,17 +93,24 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::hasInlierDistance() const
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
+PairOptions
+FlashRegistration<PointSource, PointTarget, FeatureT>::pairOptions() const
+{
+  PairOptions options = parameters_ ? optionsWith(*parameters_) : PairOptions();
+  if (resolution_ != 0)
+    options.resolution = resolution_;
+  if (hasInlierDistance())
+    options.inlier_distance = static_cast<float>(corr_dist_threshold_);
+  options.neighbors = static_cast<std::size_t>(k_correspondences_);
+  options.cloud_check = cloud_check_;
+  return options;
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
 Parameters
 FlashRegistration<PointSource, PointTarget, FeatureT>::getParameters() const
 {
-  Parameters parameters;
-  if (parameters_)
-    parameters = *parameters_;
-  else if (getResolution() != 0)
-    parameters = Parameters::fromResolution(getResolution());
-  if (hasInlierDistance())
-    parameters.inlier_distance = static_cast<float>(corr_dist_threshold_);
-  return parameters;
+  return pairOptions().parametersFor(getResolution());
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
@@ -161,13 +168,15 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::computeTransformation(
   resetResult();
   try {
     checkInput(output);
-    const std::optional<RigidTransform> hypothesis = hypothesisFrom(guess);
-    findCorrespondences();
-    const Parameters parameters = getParameters();
-    inlier_distance_ = parameters.inlier_distance;
-    result_ = workers_.estimator().estimate(
-        buffer_.view(), parameters, hypothesis, clouds_ ? &*clouds_ : nullptr);
-    timings_.estimation = result_.timings_ms;
+    PairOptions options = pairOptions();
+    options.guess = hypothesisFrom(guess);
+    PairResult pair = alignInputs(options);
+    if (resolution_ == 0)
+      estimated_resolution_ = pair.resolution;
+    inlier_distance_ = pair.parameters.inlier_distance;
+    timings_.matching = pair.timings.matching;
+    timings_.estimation = pair.timings.estimation;
+    result_ = std::move(pair.pose);
     if (result_.status == Status::Ok)
       applyResult(output);
     else

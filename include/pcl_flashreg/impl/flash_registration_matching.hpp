@@ -15,16 +15,6 @@
 namespace pcl_flashreg {
 namespace detail {
 
-inline FeatureView
-viewOf(const Fpfh33& features)
-{
-  constexpr std::size_t stride = sizeof(pcl::FPFHSignature33) / sizeof(float);
-  return {features.empty() ? nullptr : features[0].histogram,
-          features.size(),
-          pcl::FPFHSignature33::descriptorSize(),
-          stride};
-}
-
 template <typename PointT, typename FeatureT>
 void
 checkOneToOne(const char* name,
@@ -40,24 +30,57 @@ checkOneToOne(const char* name,
                                 std::to_string(points.size()) + " points");
 }
 
+/** \brief Normals that the points bring along, where their type has any. */
+template <typename PointT>
+void
+addNormals(const pcl::PointCloud<PointT>& cloud, ScanInput<float>& input)
+{
+  if constexpr (pcl::traits::has_normal<PointT>::value)
+    if (!cloud.empty() && sizeof(PointT) % sizeof(float) == 0) {
+      input.normals = &cloud[0].normal_x;
+      input.normal_stride = sizeof(PointT) / sizeof(float);
+    }
+}
+
+/** \brief Matches of keypoints as correspondences of the points that these are. */
+inline void
+appendMatches(const PairResult& result, pcl::Correspondences& correspondences)
+{
+  const auto point_of = [](const Scan& scan, std::int32_t row) {
+    return scan.origins() ? scan.origins()[row] : row;
+  };
+  correspondences.reserve(result.matches.size());
+  for (const FeatureMatch& match : result.matches)
+    correspondences.emplace_back(point_of(result.source, match.query),
+                                 point_of(result.target, match.match),
+                                 match.squared_distance);
+}
+
 } // namespace detail
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
-void
-FlashRegistration<PointSource, PointTarget, FeatureT>::findCorrespondences()
+PairResult
+FlashRegistration<PointSource, PointTarget, FeatureT>::alignInputs(
+    const PairOptions& options)
 {
-  clouds_.reset();
+  source_side_.setIndices(sourceIndices());
+  const detail::FloatRows<PointSource> source_rows(*input_, source_side_.indices());
+  const detail::FloatRows<PointTarget> target_rows(*target_, {});
+  ScanInput<float> source = source_side_.inputFrom(*input_, source_rows);
+  ScanInput<float> target = target_side_.inputFrom(*target_, target_rows);
   if (given_correspondences_)
-    takeGivenCorrespondences();
-  else if (source_features_ || target_features_)
-    matchGivenFeatures();
-  else
-    matchComputedFeatures();
+    return alignCorrespondences(source, target, options);
+  if (source_features_ || target_features_)
+    return alignGivenFeatures(source, target, options);
+  return alignComputedFeatures(source, target, options);
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
-void
-FlashRegistration<PointSource, PointTarget, FeatureT>::takeGivenCorrespondences()
+PairResult
+FlashRegistration<PointSource, PointTarget, FeatureT>::alignCorrespondences(
+    const ScanInput<float>& source,
+    const ScanInput<float>& target,
+    const PairOptions& options)
 {
   *correspondences_ = *given_correspondences_;
   if (!fake_indices_) {
@@ -71,74 +94,54 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::takeGivenCorrespondences(
     }
   }
   buffer_.gather(*input_, *target_, *correspondences_);
-  estimateGivenResolution();
+  return registration_.get().align(source, target, buffer_.view(), options);
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
-void
-FlashRegistration<PointSource, PointTarget, FeatureT>::matchGivenFeatures()
+PairResult
+FlashRegistration<PointSource, PointTarget, FeatureT>::alignGivenFeatures(
+    ScanInput<float>& source, ScanInput<float>& target, const PairOptions& options)
 {
   detail::checkOneToOne<PointSource, FeatureT>("source", *input_, source_features_);
   detail::checkOneToOne<PointTarget, FeatureT>("target", *target_, target_features_);
-  const detail::Stopwatch matching;
-  const detail::PackedFeatures source(
-      *input_, *source_features_, indices_.get(), *feature_representation_);
-  const detail::PackedFeatures target(
-      *target_, *target_features_, nullptr, *feature_representation_);
-  const auto matches =
-      workers_.matcher().match(source.view(), target.view(), k_correspondences_);
-  correspondences_->reserve(matches.size());
-  for (const FeatureMatch& match : matches)
-    correspondences_->emplace_back(source.pointOf(match.query),
-                                   target.pointOf(match.match),
-                                   match.squared_distance);
-  timings_.matching = matching.milliseconds();
-  buffer_.gather(*input_, *target_, *correspondences_);
-  estimateGivenResolution();
+  const detail::PackedFeatures from(*source_features_, *feature_representation_);
+  const detail::PackedFeatures to(*target_features_, *feature_representation_);
+  source.features = from.view();
+  target.features = to.view();
+  detail::addNormals(*input_, source);
+  detail::addNormals(*target_, target);
+  // Nobody says when descriptors change.
+  source.made = target.made = nullptr;
+  const PairResult result = registration_.get().align(source, target, options);
+  detail::appendMatches(result, *correspondences_);
+  return result;
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
-void
-FlashRegistration<PointSource, PointTarget, FeatureT>::matchComputedFeatures()
+PairResult
+FlashRegistration<PointSource, PointTarget, FeatureT>::alignComputedFeatures(
+    ScanInput<float>& source, ScanInput<float>& target, PairOptions options)
 {
-  source_cache_.setIndices(sourceIndices());
-  if (resolution_ == 0)
-    estimated_resolution_ = std::max(source_cache_.estimatedResolution(*input_),
-                                     target_cache_.estimatedResolution(*target_));
-  timings_.source_features =
-      source_cache_.update(*input_, getResolution(), front_end_, workers_);
-  timings_.target_features =
-      target_cache_.update(*target_, getResolution(), front_end_, workers_);
-
-  const detail::Stopwatch matching;
-  const FpfhCloud& source = source_cache_.fpfh();
-  const FpfhCloud& target = target_cache_.fpfh();
-  const auto matches = workers_.matcher().match(detail::viewOf(*source.features),
-                                                detail::viewOf(*target.features),
-                                                k_correspondences_);
-  correspondences_->reserve(matches.size());
-  for (const FeatureMatch& match : matches)
+  PairRegistration& registration = registration_.get();
+  if (front_end_ == FrontEnd::Pcl) {
+    if (!options.resolution)
+      options.resolution = registration.chooseResolution(source, target);
+    const unsigned threads = registration_.numThreads();
+    timings_.source_features =
+        source_side_.describeWithPcl(*input_, *options.resolution, threads, source);
+    timings_.target_features =
+        target_side_.describeWithPcl(*target_, *options.resolution, threads, target);
+  }
+  const PairResult result = registration.align(source, target, options);
+  source_side_.keep(*input_, result.source);
+  target_side_.keep(*target_, result.target);
+  for (const FeatureMatch& match : result.matches)
     correspondences_->emplace_back(match.query, match.match, match.squared_distance);
-  timings_.matching = matching.milliseconds();
-  buffer_.gather(*source.points, *target.points, *correspondences_);
-  if (cloud_check_)
-    gatherClouds(source, target);
-}
-
-template <typename PointSource, typename PointTarget, typename FeatureT>
-void
-FlashRegistration<PointSource, PointTarget, FeatureT>::gatherClouds(
-    const FpfhCloud& source, const FpfhCloud& target)
-{
-  const auto viewpoint = [this](const auto& cloud) -> std::optional<Eigen::Vector3d> {
-    if (!viewpoints_known_)
-      return std::nullopt;
-    return cloud.sensor_origin_.template head<3>().template cast<double>();
-  };
-  source_buffer_.gather(source, Eigen::Vector3f::Zero(), viewpoint(*input_));
-  target_buffer_.gather(target, Eigen::Vector3f::Zero(), viewpoint(*target_));
-  clouds_ = CloudPairView<float>{
-      source_buffer_.view(), target_buffer_.view(), getResolution()};
+  if (front_end_ == FrontEnd::Native) {
+    timings_.source_features = detail::toFpfhTimings(result.timings.source);
+    timings_.target_features = detail::toFpfhTimings(result.timings.target);
+  }
+  return result;
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
@@ -149,8 +152,8 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::keypointsLeft() const
     return "";
   std::ostringstream text;
   text << " (the resolution of " << getResolution() << " leaves "
-       << source_cache_.fpfh().points->size() << " source and "
-       << target_cache_.fpfh().points->size() << " target keypoints)";
+       << source_side_.scan().size() << " source and " << target_side_.scan().size()
+       << " target keypoints)";
   return text.str();
 }
 
@@ -159,15 +162,6 @@ pcl::Indices
 FlashRegistration<PointSource, PointTarget, FeatureT>::sourceIndices() const
 {
   return fake_indices_ ? pcl::Indices() : *indices_;
-}
-
-template <typename PointSource, typename PointTarget, typename FeatureT>
-void
-FlashRegistration<PointSource, PointTarget, FeatureT>::estimateGivenResolution()
-{
-  if (resolution_ == 0 && !parameters_)
-    estimated_resolution_ = std::max(estimateVoxelSize(*input_, sourceIndices()),
-                                     estimateVoxelSize(*target_));
 }
 
 } // namespace pcl_flashreg

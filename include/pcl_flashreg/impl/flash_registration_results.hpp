@@ -57,7 +57,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::applyResult(
     converged_ &= static_cast<float>(getInliers().size()) >=
                   inlier_fraction_ * static_cast<float>(indices_->size());
   if (in_place)
-    source_cache_.reset();
+    source_side_.reset();
   // The output holds a copy of the source by now. The pose is applied in double
   // precision: coordinates may be large.
   if constexpr (pcl::traits::has_normal<PointSource>::value)

@@ -5,6 +5,7 @@
 
 #include <pcl_flashreg/fpfh_features.h>
 #include <pcl_flashreg/resolution.h>
+#include <pcl_flashreg/scan.h>
 
 #include <cstdint>
 #include <cstring>
@@ -56,29 +57,81 @@ private:
   std::vector<std::int32_t> indices_;
 };
 
+inline FeatureView
+viewOf(const Fpfh33& features)
+{
+  constexpr std::size_t stride = sizeof(pcl::FPFHSignature33) / sizeof(float);
+  return {features.empty() ? nullptr : features[0].histogram,
+          features.size(),
+          pcl::FPFHSignature33::descriptorSize(),
+          stride};
+}
+
+/** \brief Keypoints of a DescribedCloud or a Scan, row by row. */
 inline FpfhCloud
-toFpfhCloud(const DescribedCloud& described)
+toFpfhCloud(std::size_t size,
+            const float* points,
+            const float* normals,
+            const float* curvatures,
+            const float* descriptors)
 {
   FpfhCloud result;
   result.points.reset(new PointsXYZ);
   result.normals.reset(new Normals);
   result.features.reset(new Fpfh33);
-  result.points->reserve(described.size);
-  result.normals->reserve(described.size);
-  for (std::size_t i = 0; i < described.size; ++i) {
-    const float* point = &described.points[3 * i];
-    const float* normal = &described.normals[3 * i];
+  result.points->reserve(size);
+  result.normals->reserve(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const float* point = points + 3 * i;
+    const float* normal = normals + 3 * i;
     result.points->emplace_back(point[0], point[1], point[2]);
     result.normals->emplace_back(normal[0], normal[1], normal[2]);
-    result.normals->back().curvature = described.curvatures[i];
+    result.normals->back().curvature = curvatures[i];
   }
   static_assert(sizeof(pcl::FPFHSignature33) == 33 * sizeof(float));
-  result.features->resize(described.size);
-  if (described.size > 0)
+  result.features->resize(size);
+  if (size > 0)
     std::memcpy((*result.features)[0].histogram,
-                described.descriptors.data(),
-                described.descriptors.size() * sizeof(float));
+                descriptors,
+                size * sizeof(pcl::FPFHSignature33));
   return result;
+}
+
+/** \brief Relative to Scan::shift(). */
+inline FpfhCloud
+toFpfhCloud(const Scan& scan)
+{
+  return toFpfhCloud(scan.size(),
+                     scan.points(),
+                     scan.normals(),
+                     scan.curvatures(),
+                     scan.features().data);
+}
+
+/** \brief Puts keypoints in the place of the cloud that they come from; they must stay. */
+inline void
+takeKeypoints(const FpfhCloud& fpfh, ScanInput<float>& input)
+{
+  input.points = PointView();
+  input.normals = nullptr;
+  input.features = viewOf(*fpfh.features);
+  if (fpfh.points->empty())
+    return;
+  constexpr std::size_t point_floats = sizeof(pcl::PointXYZ) / sizeof(float);
+  input.points = {
+      (*fpfh.points)[0].data, fpfh.points->size(), point_floats, nullptr, 0};
+  input.normals = (*fpfh.normals)[0].normal;
+  input.normal_stride = sizeof(pcl::Normal) / sizeof(float);
+}
+
+inline FpfhTimings
+toFpfhTimings(const FeatureTimings& spent)
+{
+  FpfhTimings timings;
+  timings.voxel_grid = spent.voxel_grid;
+  timings.normals = spent.neighbor_grid + spent.normals;
+  timings.features = spent.point_histograms + spent.feature_histograms;
+  return timings;
 }
 
 } // namespace detail
@@ -96,16 +149,17 @@ computeFpfh(const pcl::PointCloud<PointT>& cloud,
   for (int axis = 0; axis < 3; ++axis)
     parameters.viewpoint[axis] = cloud.sensor_origin_[axis];
   FeatureTimings spent;
-  const FpfhCloud result =
-      detail::toFpfhCloud(extractor.describe(rows.view(), parameters, &spent));
+  const DescribedCloud described = extractor.describe(rows.view(), parameters, &spent);
+  const FpfhCloud result = detail::toFpfhCloud(described.size,
+                                               described.points.data(),
+                                               described.normals.data(),
+                                               described.curvatures.data(),
+                                               described.descriptors.data());
   result.points->header = cloud.header;
   result.points->sensor_origin_ = cloud.sensor_origin_;
   result.points->sensor_orientation_ = cloud.sensor_orientation_;
-  if (timings) {
-    timings->voxel_grid = spent.voxel_grid;
-    timings->normals = spent.neighbor_grid + spent.normals;
-    timings->features = spent.point_histograms + spent.feature_histograms;
-  }
+  if (timings)
+    *timings = detail::toFpfhTimings(spent);
   return result;
 }
 

@@ -14,8 +14,8 @@ namespace {
 
 class CpuBackend : public Backend {
 public:
-  explicit CpuBackend(unsigned num_threads)
-      : kernels_(selectKernels()), stages_(kernels_, num_threads)
+  explicit CpuBackend(ThreadPool& pool)
+      : kernels_(selectKernels()), stages_(kernels_, pool)
   {
   }
 
@@ -107,9 +107,9 @@ Stages::copyTo(Trace& trace) const
 } // namespace cpu
 
 std::unique_ptr<Backend>
-makeCpuBackend(unsigned num_threads)
+makeCpuBackend(ThreadPool& pool)
 {
-  return std::make_unique<cpu::CpuBackend>(num_threads);
+  return std::make_unique<cpu::CpuBackend>(pool);
 }
 
 } // namespace pcl_flashreg

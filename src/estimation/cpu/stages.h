@@ -20,10 +20,7 @@ namespace cpu {
  * named after a stage stands in the file of that name. */
 class Stages {
 public:
-  /** \param[in] threads 0 takes the number of processors */
-  Stages(const Kernels& kernels, unsigned threads) : kernels_(kernels), pool_(threads)
-  {
-  }
+  Stages(const Kernels& kernels, ThreadPool& pool) : kernels_(kernels), pool_(pool) {}
 
   void
   begin(const Problem& problem,
@@ -146,7 +143,7 @@ private:
   rankHypotheses() const;
 
   const Kernels& kernels_;
-  ThreadPool pool_;
+  ThreadPool& pool_;
   const Problem* problem_ = nullptr;
   const Parameters* parameters_ = nullptr;
   std::optional<Pose> guess_;

@@ -5,12 +5,15 @@
 
 #include "scan/points.h"
 
+#include <limits>
+
 namespace pcl_flashreg {
 namespace cpu {
 
 void
 FeatureStages::voxelGrid(const PointView& points, double voxel_size)
 {
+  voxel_size_ = voxel_size;
   Bounds bounds;
   std::size_t finite = 0;
   const std::size_t count = countOf(points);
@@ -43,10 +46,11 @@ FeatureStages::neighborGrid(double radius)
 }
 
 DescribedCloud
-FeatureStages::takeResult()
+FeatureStages::takeResult(ScanContent content, bool every_keypoint)
 {
   // Where in the grid each keypoint stands that is still there.
   constexpr std::uint32_t GONE = 0xFFFFFFFF;
+  constexpr float NONE = std::numeric_limits<float>::quiet_NaN();
   std::vector<std::uint32_t> place(grid_.size(), GONE);
   DescribedCloud result;
   for (std::size_t i = 0; i < grid_.size(); ++i)
@@ -54,18 +58,30 @@ FeatureStages::takeResult()
       place[grid_.row(i)] = static_cast<std::uint32_t>(i);
       ++result.size;
     }
+  if (every_keypoint)
+    result.size = grid_.size();
+  const bool described = content == ScanContent::Descriptors;
   const SurfaceArrays arrays = grid_.arrays();
   result.points.reserve(3 * result.size);
   result.normals.reserve(3 * result.size);
   result.curvatures.reserve(result.size);
-  result.descriptors.reserve(FPFH_BINS * result.size);
-  for (const std::uint32_t i : place) {
-    if (i == GONE)
+  result.descriptors.reserve(described ? FPFH_BINS * result.size : 0);
+  for (std::size_t row = 0; row < place.size(); ++row) {
+    const std::uint32_t i = place[row];
+    const float* point = keypoints_.data() + 3 * row;
+    if (i == GONE && !every_keypoint)
       continue;
-    result.points.insert(result.points.end(), {arrays.x[i], arrays.y[i], arrays.z[i]});
+    result.points.insert(result.points.end(), point, point + 3);
+    if (i == GONE) {
+      result.normals.insert(result.normals.end(), 3, NONE);
+      result.curvatures.push_back(0);
+      continue;
+    }
     result.normals.insert(result.normals.end(),
                           {arrays.nx[i], arrays.ny[i], arrays.nz[i]});
     result.curvatures.push_back(curvatures_[i]);
+    if (!described)
+      continue;
     const float* histogram = feature_histograms_.data() + i * HISTOGRAM_STRIDE;
     result.descriptors.insert(
         result.descriptors.end(), histogram, histogram + FPFH_BINS);

@@ -6,6 +6,7 @@
 #include "support/aligned_buffer.h"
 #include "scan/cpu/neighbor_grid.h"
 #include "scan/cpu/voxel_grid.h"
+#include "scan/scan_pipeline.h"
 #include "simd/kernels.h"
 #include "support/thread_pool.h"
 
@@ -20,9 +21,8 @@ namespace cpu {
  * them. Every member function named after a step stands in the file of that name. */
 class FeatureStages {
 public:
-  /** \param[in] threads 0 takes the number of processors */
-  FeatureStages(const Kernels& kernels, unsigned threads)
-      : kernels_(kernels), pool_(threads)
+  FeatureStages(const Kernels& kernels, ThreadPool& pool)
+      : kernels_(kernels), pool_(pool)
   {
   }
 
@@ -32,20 +32,29 @@ public:
   /** \brief Sorts the keypoints, for radii up to this one. */
   void
   neighborGrid(double radius);
-  /** \brief Normals of the keypoints; those that have none leave the grid. */
+  /** \brief Normals of the keypoints, the mean of those given in a voxel, or else
+   * computed; keypoints that have none leave the grid. */
   void
-  normals(double radius, const float viewpoint[3]);
+  normals(const PointView& points,
+          const GivenNormals& given,
+          double radius,
+          const float viewpoint[3]);
   /** \brief Simplified point feature histograms. */
   void
   pointHistograms(double radius);
   /** \brief FPFH; keypoints that have no pair leave the grid. */
   void
   featureHistograms(double radius);
-  /** \brief What is left, in the order of the keypoints. */
+  /** \brief In the order of the keypoints, those that have left the grid left out, or
+   * kept with a normal that is not finite; with descriptors, if those were computed. */
   DescribedCloud
-  takeResult();
+  takeResult(ScanContent content, bool every_keypoint);
 
 private:
+  /** \brief Of any length, in the order of the keypoints; empty where none are given. */
+  std::vector<Vec3>
+  sumNormals(const PointView& points, const GivenNormals& given) const;
+
   /** \brief A point's neighbours, in memory of the thread. */
   struct Neighbors {
     AlignedBuffer<std::uint32_t> indices;
@@ -59,9 +68,11 @@ private:
   forEachPoint(double radius, const Visit& visit);
 
   const Kernels& kernels_;
-  ThreadPool pool_;
+  ThreadPool& pool_;
 
   VoxelGrid voxel_grid_;
+  /** \brief 0 where every point is a keypoint. */
+  double voxel_size_ = 0;
   /** \brief n x 3, in the order of the voxels. */
   std::vector<float> keypoints_;
   NeighborGrid grid_;

@@ -12,24 +12,6 @@ namespace {
 /** \brief Points that are added up in one go. */
 constexpr std::size_t PIECE = 8192;
 
-/** \brief pcl::VoxelGrid multiplies by the inverse in single precision; points on the
- * border of two voxels must go where it puts them. */
-struct VoxelFloor {
-  float inverse_size;
-
-  double
-  operator()(float x) const
-  {
-    // The library's floor is a call where the instruction set has none.
-    const float scaled = x * inverse_size;
-    if (std::abs(scaled) < 1e9f) {
-      const auto truncated = static_cast<std::int32_t>(scaled);
-      return truncated - (static_cast<float>(truncated) > scaled ? 1 : 0);
-    }
-    return std::floor(scaled);
-  }
-};
-
 } // namespace
 
 void
@@ -85,7 +67,8 @@ VoxelGrid::run(const PointView& points,
 {
   const std::size_t count = countOf(points);
   const auto point = [&points](std::size_t i) { return pointOf(points, i); };
-  const CellNumbering<VoxelFloor> numbering({1.0f / voxel_size}, bounds, count, point);
+  numbering_.emplace(VoxelFloor{1.0f / voxel_size}, bounds, count, point);
+  const CellNumbering<VoxelFloor>& numbering = *numbering_;
 
   const std::size_t piece_count = (count + PIECE - 1) / PIECE;
   pieces_.resize(std::min(pool.size(), piece_count));
@@ -120,6 +103,26 @@ VoxelGrid::run(const PointView& points,
     for (const double sum : {voxel.x, voxel.y, voxel.z})
       centroids.push_back(static_cast<float>(sum / voxel.count));
   }
+}
+
+std::vector<Vec3>
+VoxelGrid::sumNormals(const PointView& points, const GivenNormals& normals) const
+{
+  std::vector<std::uint32_t> row_of(order_.size());
+  for (std::size_t row = 0; row < order_.size(); ++row)
+    row_of[order_[row].index] = static_cast<std::uint32_t>(row);
+  std::vector<Vec3> sums(order_.size(), Vec3{0, 0, 0});
+  for (std::size_t i = 0; i < countOf(points); ++i) {
+    const float* point = pointOf(points, i);
+    const float* normal = normals.of(indexOf(points, i));
+    if (!isFinite(point) || !isFinite(normal))
+      continue;
+    Vec3& sum = sums[row_of[table_.find(numbering_->key(point))]];
+    const Vec3 n{normal[0], normal[1], normal[2]};
+    // Where nobody has turned the normals, neighbours may look opposite ways.
+    sum = dot(sum, n) < 0 ? sum - n : sum + n;
+  }
+  return sums;
 }
 
 } // namespace cpu

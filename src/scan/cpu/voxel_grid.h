@@ -5,15 +5,37 @@
 
 #include "scan/cpu/cell_numbering.h"
 #include "scan/cpu/radix_sort.h"
+#include "math/vec3.h"
+#include "scan/scan_pipeline.h"
 #include "support/thread_pool.h"
 
 #include <pcl_flashreg/point_view.h>
 
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pcl_flashreg {
 namespace cpu {
+
+/** \brief pcl::VoxelGrid multiplies by the inverse in single precision; points on the
+ * border of two voxels must go where it puts them. */
+struct VoxelFloor {
+  float inverse_size;
+
+  double
+  operator()(float x) const
+  {
+    // The library's floor is a call where the instruction set has none.
+    const float scaled = x * inverse_size;
+    if (std::abs(scaled) < 1e9f) {
+      const auto truncated = static_cast<std::int32_t>(scaled);
+      return truncated - (static_cast<float>(truncated) > scaled ? 1 : 0);
+    }
+    return std::floor(scaled);
+  }
+};
 
 /** \brief Sums of the points in a voxel. */
 struct VoxelSum {
@@ -34,6 +56,12 @@ public:
   voxels() const
   {
     return voxels_;
+  }
+  /** \brief Position of a voxel that was added. */
+  std::size_t
+  find(std::uint64_t key) const
+  {
+    return slots_[slotOf(key)] - 1;
   }
 
 private:
@@ -68,7 +96,14 @@ public:
       ThreadPool& pool,
       std::vector<float>& centroids);
 
+  /** \brief After run() on the same points: the sum of the finite normals in each voxel,
+   * turned to the same side, in the order of the centroids. */
+  std::vector<Vec3>
+  sumNormals(const PointView& points, const GivenNormals& normals) const;
+
 private:
+  /** \brief Of the last run. */
+  std::optional<CellNumbering<VoxelFloor>> numbering_;
   std::vector<VoxelTable> pieces_;
   VoxelTable table_;
   std::vector<KeyedIndex> order_;

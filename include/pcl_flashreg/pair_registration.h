@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/feature_extractor.h>
+#include <pcl_flashreg/feature_matching.h>
+#include <pcl_flashreg/scan.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief The steps of a registration, in their order. */
+enum class PairStep {
+  /** \brief Finding a resolution, where none is given. */
+  Resolution,
+  SourceScan,
+  TargetScan,
+  Matching,
+  /** \brief From correspondences to the pose and the verdict. */
+  Estimation
+};
+
+/** \brief What is known when a step begins. */
+struct PairProgress {
+  PairStep step = PairStep::Resolution;
+  /** \brief 0 as long as it is not known. */
+  double resolution = 0;
+  std::size_t source_keypoints = 0, target_keypoints = 0;
+  /** \brief Known before the last step. */
+  std::size_t correspondences = 0;
+};
+
+/** \brief How two scans are registered. */
+struct PairOptions {
+  /** \brief The voxel size, in the unit of the clouds, > 0; nothing where nobody knows:
+   * scans that are made have their own, the coarser of theirs is taken; for clouds it is
+   * estimated (estimateResolution(); estimateVoxelSize() of those that are keypoints with
+   * descriptors) and the coarser taken; correspondences of the caller's tell it by the
+   * spacing of their points, the finer of both sides, since points are repeated there. */
+  std::optional<double> resolution;
+
+  /** \brief Of the estimator, all but the lengths, which follow from the resolution (the
+   * indoor preset, where that can't be known) ... */
+  Parameters parameters;
+  /** \brief ... or are given here, in the unit of the clouds. */
+  std::optional<float> length_tolerance, min_length_sum, inlier_distance;
+
+  /** \brief Target descriptors that each source descriptor is matched with, >= 1. */
+  std::size_t neighbors = 1;
+  /** \brief Keep matches that hold both ways only. */
+  bool mutual = false;
+
+  /** \brief Whether the clouds judge the hypotheses, too, wherever there are clouds. */
+  bool cloud_check = true;
+
+  /** \brief A pose that is tried like any other hypothesis. */
+  std::optional<RigidTransform> guess;
+
+  /** \brief Called before each step; what it throws ends the registration. */
+  std::function<void(const PairProgress&)> on_step;
+
+  /** \brief The estimator's parameters at this resolution; 0 where none is known.
+   * \throws std::invalid_argument if it is not > 0 and finite, nor 0 */
+  PCL_FLASHREG_EXPORT Parameters
+  parametersFor(double voxel_size) const;
+};
+
+/** \brief Wall-clock time of a registration's parts in milliseconds; 0 for what was not
+ * done. */
+struct PairTimings {
+  double resolution = 0;
+  FeatureTimings source, target;
+  double matching = 0;
+  StageTimings estimation;
+  double total = 0;
+};
+
+/** \brief Putative correspondences with their coordinates in the callers' frames. */
+struct Correspondences {
+  /** \brief N x 3 each, row-major. */
+  std::vector<double> source, target;
+  /** \brief Distance in feature space, smaller is better; empty if there is none. */
+  std::vector<float> ranks;
+
+  std::size_t
+  size() const
+  {
+    return source.size() / 3;
+  }
+
+  CorrespondenceView<double>
+  view() const
+  {
+    return {source.data(), target.data(), size(), ranks.empty() ? nullptr : ranks.data()};
+  }
+};
+
+/** \brief What PairRegistration::align() returns. */
+struct PairResult {
+  /** \brief The pose, the verdict and what they are made from; its rows are those of
+   * `matches`, or of the caller's correspondences. */
+  Result pose;
+  /** \brief Which keypoint of the source each row has, and which of the target; empty
+   * where the caller brought correspondences. */
+  std::vector<FeatureMatch> matches;
+  /** \brief Number of correspondences. */
+  std::size_t correspondences = 0;
+  /** \brief Those that were registered. Empty where there were no clouds, or nobody needed
+   * them. */
+  Scan source, target;
+  /** \brief Voxel size; 0 if it is not known. */
+  double resolution = 0;
+  /** \brief What each cloud by itself would have been seen at, where that was estimated:
+   * far apart if they are not in the same unit. */
+  std::optional<double> source_estimate, target_estimate;
+  Parameters parameters;
+  PairTimings timings;
+};
+
+/** \brief Registers two clouds, with no initial guess: the one way from points to a pose.
+ *
+ * Clouds become scans (keypoints, normals, descriptors), scans are matched, matches become
+ * hypotheses, and hypotheses are judged by the correspondences and by both clouds. Who has
+ * descriptors, correspondences or scans already enters where these are; clouds judge
+ * wherever there are clouds.
+ *
+ * Deterministic, as Estimator is. An object owns its threads and its memory, so that later
+ * calls allocate little; use one object a thread.
+ */
+class PCL_FLASHREG_EXPORT PairRegistration {
+public:
+  /** \param[in] backend where hypotheses are made
+   * \param[in] num_threads CPU threads of all steps; 0 takes as many as there are
+   * processors
+   * \throws BackendError, std::invalid_argument as Estimator's constructor
+   */
+  explicit PairRegistration(BackendKind backend = BackendKind::Auto,
+                            unsigned num_threads = 0);
+  ~PairRegistration();
+  PairRegistration(PairRegistration&&) noexcept;
+  PairRegistration&
+  operator=(PairRegistration&&) noexcept;
+
+  /** \brief Makes a scan: a voxel grid and normals, and with ScanContent::Descriptors,
+   * where the input has none, FPFH. The same on any number of threads.
+   * \param[in] input what is known of the cloud
+   * \param[in] resolution voxel size, in the unit of the cloud; of an input with
+   * descriptors, the spacing of its points
+   * \param[in] content see there
+   * \param[out] timings of the steps, if not null
+   * \throws std::invalid_argument if the resolution is not > 0 and finite, or too small for
+   * the extent of the cloud; if a size, a stride or an index is out of range
+   */
+  Scan
+  makeScan(const ScanInput<float>& input,
+           double resolution,
+           ScanContent content = ScanContent::Descriptors,
+           FeatureTimings* timings = nullptr);
+  Scan
+  makeScan(const ScanInput<double>& input,
+           double resolution,
+           ScanContent content = ScanContent::Descriptors,
+           FeatureTimings* timings = nullptr);
+
+  /** \brief The resolution that align() takes for two clouds where no options say.
+   * \throws std::invalid_argument as align() */
+  double
+  chooseResolution(const ScanInput<float>& source, const ScanInput<float>& target) const;
+  double
+  chooseResolution(const ScanInput<double>& source,
+                   const ScanInput<double>& target) const;
+
+  /** \brief Each source descriptor with its nearest ones of the target, as
+   * FeatureMatcher::match(), or with PairOptions::mutual those that hold both ways.
+   * \throws std::invalid_argument if the descriptors' dimensions differ
+   */
+  std::vector<FeatureMatch>
+  match(const Scan& source, const Scan& target, const PairOptions& options = {});
+
+  /** \brief From clouds to the pose: finds the resolution, makes both scans, registers
+   * them. Both clouds have descriptors, or none has.
+   * \throws std::invalid_argument as makeScan(); if an option is out of range; if a cloud
+   * whose resolution has to be estimated has fewer than two distinct finite points
+   * \throws BackendError, std::bad_alloc if the machine fails; the object stays usable
+   */
+  PairResult
+  align(const ScanInput<float>& source,
+        const ScanInput<float>& target,
+        const PairOptions& options = {});
+  PairResult
+  align(const ScanInput<double>& source,
+        const ScanInput<double>& target,
+        const PairOptions& options = {});
+
+  /** \brief From scans with descriptors to the pose. */
+  PairResult
+  align(const Scan& source, const Scan& target, const PairOptions& options = {});
+
+  /** \brief From correspondences of the caller's to the pose; the clouds that they lie in
+   * judge it. Without points in one of both clouds the correspondences decide alone. */
+  PairResult
+  align(const ScanInput<float>& source,
+        const ScanInput<float>& target,
+        const CorrespondenceView<float>& correspondences,
+        const PairOptions& options = {});
+  PairResult
+  align(const ScanInput<double>& source,
+        const ScanInput<double>& target,
+        const CorrespondenceView<double>& correspondences,
+        const PairOptions& options = {});
+
+  /** \brief The same where the clouds are scans already. */
+  PairResult
+  align(const Scan& source,
+        const Scan& target,
+        const CorrespondenceView<double>& correspondences,
+        const PairOptions& options = {});
+
+  /** \brief Name of the backend that was chosen, e.g. "cpu-avx512". */
+  std::string
+  backendName() const;
+
+private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/** \brief Correspondences from keypoints that match. */
+PCL_FLASHREG_EXPORT Correspondences
+toCorrespondences(const Scan& source,
+                  const Scan& target,
+                  const std::vector<FeatureMatch>& matches);
+
+} // namespace pcl_flashreg

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "matching/search.h"
+
+#include "matching/cpu/feature_search.h"
+#include "matching/cpu/feature_space.h"
+#include "matching/cpu/feature_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace pcl_flashreg {
+namespace {
+
+void
+check(const char* name, const FeatureView& view)
+{
+  if (view.size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw std::invalid_argument(std::string(name) + ": size " +
+                                std::to_string(view.size) +
+                                " is out of range: it must fit 31 bits");
+  if (view.size > 0 &&
+      (!view.data || view.dimension == 0 || view.stride < view.dimension))
+    throw std::invalid_argument(
+        std::string(name) +
+        ": needs data, a dimension >= 1 and a stride >= it; got "
+        "dimension " +
+        std::to_string(view.dimension) + ", stride " + std::to_string(view.stride));
+}
+
+} // namespace
+
+MutualMatches
+searchFeatures(const FeatureView& queries,
+       const FeatureView& targets,
+       std::size_t k,
+       bool both_ways,
+       ThreadPool& pool)
+{
+  check("queries", queries);
+  check("targets", targets);
+  if (k == 0)
+    throw std::invalid_argument("k = 0 is out of range: it must be >= 1");
+  if (queries.size == 0 || targets.size == 0)
+    return {};
+  if (queries.dimension != targets.dimension)
+    throw std::invalid_argument(
+        "queries have dimension " + std::to_string(queries.dimension) +
+        ", targets have dimension " + std::to_string(targets.dimension));
+
+  const FiniteFeatures finite[2] = {FiniteFeatures(queries), FiniteFeatures(targets)};
+  if (finite[0].size() == 0 || finite[1].size() == 0)
+    return {};
+  const FeatureSpace space(finite[0], finite[1]);
+  const std::array<FeatureTree, 2> trees =
+      plantTrees({&finite[0], &finite[1]}, space, pool);
+  const FeatureSet sets[2] = {{finite[0], trees[0]}, {finite[1], trees[1]}};
+  MutualMatches matches;
+  matches.forward = searchNearest(sets[0], sets[1], space, k, pool);
+  if (both_ways)
+    matches.backward = searchNearest(sets[1], sets[0], space, k, pool);
+  return matches;
+}
+
+std::vector<FeatureMatch>
+MutualMatches::mutual() const
+{
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  pairs.reserve(backward.size());
+  for (const FeatureMatch& match : backward)
+    pairs.emplace_back(match.match, match.query);
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<FeatureMatch> both;
+  for (const FeatureMatch& match : forward)
+    if (std::binary_search(
+            pairs.begin(), pairs.end(), std::make_pair(match.query, match.match)))
+      both.push_back(match);
+  return both;
+}
+
+} // namespace pcl_flashreg

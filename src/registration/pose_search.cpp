@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "registration/pose_search.h"
+
+#include "judgement/confidence.h"
+#include "judgement/evidence.h"
+#include "estimation/information.h"
+#include "registration/choose_backend.h"
+
+#include <limits>
+
+namespace pcl_flashreg {
+namespace {
+
+Eigen::Matrix3d
+rotationOf(const Pose& T)
+{
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(T.r);
+}
+
+Eigen::Vector3d
+toEigen(const Vec3& v)
+{
+  return {v.x, v.y, v.z};
+}
+
+template <typename Scalar>
+void
+checkInput(const CorrespondenceView<Scalar>& in)
+{
+  if (in.size > 0 && (!in.source_xyz || !in.target_xyz))
+    throw std::invalid_argument("correspondences: size is " + std::to_string(in.size) +
+                                ", but source_xyz or target_xyz is null");
+  if (in.size > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw std::invalid_argument("correspondences: size " + std::to_string(in.size) +
+                                " is out of range: it must fit an int");
+}
+
+/** \brief Hypotheses that the verdict needs to see: rivals for the correspondences, and
+ * more of them where the clouds choose. */
+constexpr int LISTED = 5, LISTED_FOR_CLOUDS = 20;
+
+Parameters
+withRivals(Parameters parameters, bool for_clouds)
+{
+  parameters.max_hypotheses =
+      std::max(parameters.max_hypotheses, for_clouds ? LISTED_FOR_CLOUDS : LISTED);
+  return parameters;
+}
+
+/** \brief The most inliers that a hypothesis other than the first has. */
+int
+rivalInliers(const std::vector<ScoredPose>& hypotheses)
+{
+  int most = 0;
+  for (std::size_t i = 1; i < hypotheses.size(); ++i)
+    most = std::max(most, hypotheses[i].inlier_count);
+  return most;
+}
+
+} // namespace
+
+PoseSearch::PoseSearch(BackendKind backend, unsigned num_threads)
+    : pool_(num_threads), backend_(chooseBackend(backend, pool_))
+{
+}
+
+/** \brief p_t = R p_s + t with p_s = s + c_s and p_t = q + c_t: q = R s + R c_s + t - c_t. */
+Pose
+PoseSearch::toCentred(const RigidTransform& T) const
+{
+  Pose centred;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(centred.r) = T.rotation;
+  Eigen::Map<Eigen::Vector3d>(centred.t) =
+      T.rotation * toEigen(preparation_.source_centre) + T.translation -
+      toEigen(preparation_.target_centre);
+  return centred;
+}
+
+RigidTransform
+PoseSearch::toOriginal(const Pose& T) const
+{
+  RigidTransform original;
+  original.rotation = rotationOf(T);
+  original.translation = Eigen::Map<const Eigen::Vector3d>(T.t) +
+                         toEigen(preparation_.target_centre) -
+                         original.rotation * toEigen(preparation_.source_centre);
+  return original;
+}
+
+/** \brief Replaces the hypotheses by those that stand before the clouds, unless the best
+ * of these has less than three inliers. */
+void
+PoseSearch::askClouds(const SurfacePair& clouds,
+                           const Parameters& parameters,
+                           PoseEstimate& estimate,
+                           CloudFindings& findings)
+{
+  const float limit = parameters.inlier_distance;
+  findings = checkOnClouds(
+      clouds, problem_, estimate.candidates, estimate.hypotheses, limit, pool_);
+  if (findings.evidence.inliers < 3) {
+    findings = {};
+    return;
+  }
+  estimate.hypotheses.clear();
+  for (const CheckedPose& checked : findings.poses) {
+    std::vector<int> inliers = inliersOf(problem_, checked.pose, limit);
+    estimate.hypotheses.push_back({checked.pose,
+                                   scoreOf(problem_, checked.pose, inliers, parameters),
+                                   checked.inlier_count});
+    if (estimate.hypotheses.size() == 1)
+      estimate.inliers = std::move(inliers);
+  }
+}
+
+void
+PoseSearch::fill(Result& result,
+                      const PoseEstimate& estimate,
+                      const CloudFindings& findings,
+                      const Parameters& parameters) const
+{
+  result.status = estimate.status;
+  result.second_order = estimate.second_order;
+  if (estimate.status != Status::Ok)
+    return;
+  for (const ScoredPose& hypothesis : estimate.hypotheses)
+    result.hypotheses.push_back(
+        {toOriginal(hypothesis.pose),
+         hypothesis.inlier_count,
+         static_cast<double>(hypothesis.score) / static_cast<double>(SCORE_UNIT),
+         std::nullopt});
+  result.T_target_source = result.hypotheses.front().T_target_source;
+  result.score = result.hypotheses.front().score;
+  for (const int i : estimate.inliers)
+    result.inliers.push_back(preparation_.rows[i]);
+  const int rival = rivalInliers(estimate.hypotheses);
+  result.distinctness = rival > 0 ? static_cast<double>(estimate.inliers.size()) / rival
+                                  : std::numeric_limits<double>::infinity();
+  result.evidence = findings.evidence;
+  addCorrespondences(
+      problem_, estimate.inliers, rival, parameters.inlier_distance, result.evidence);
+  for (std::size_t i = 0; i < findings.poses.size(); ++i)
+    result.hypotheses[i].agreement = findings.poses[i].agreement;
+  result.hypotheses.resize(
+      std::min<std::size_t>(result.hypotheses.size(), parameters.max_hypotheses));
+  result.confidence = confidenceOf(result.evidence);
+  result.converged = result.confidence >= parameters.min_confidence;
+  result.information = informationMatrix(problem_,
+                                         estimate.hypotheses.front().pose,
+                                         estimate.inliers,
+                                         preparation_.target_centre,
+                                         parameters.inlier_distance);
+}
+
+SurfacePair
+PoseSearch::prepareClouds(const JudgingClouds& clouds)
+{
+  const auto spacing = static_cast<float>(clouds.spacing);
+  const auto build = [&](const JudgingCloud& cloud, const Vec3& centre, Surface& surface) {
+    std::visit(
+        [&](const auto& view) { surface.build(view, centre - cloud.shift, spacing); },
+        cloud.view);
+  };
+  pool_.forEach(2, [&](std::size_t side, std::size_t) {
+    if (side == 0)
+      build(clouds.source, preparation_.source_centre, source_surface_);
+    else
+      build(clouds.target, preparation_.target_centre, target_surface_);
+  });
+  return {source_surface_, target_surface_, spacing};
+}
+
+template <typename Scalar>
+Result
+PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
+                const Parameters& parameters,
+                const std::optional<RigidTransform>& guess,
+                const JudgingClouds* clouds)
+{
+  parameters.validate();
+  checkInput(correspondences);
+  Result result;
+  result.backend = backend_->name();
+  StageClock clock(result.timings_ms);
+  prepare(correspondences,
+          static_cast<std::size_t>(parameters.max_correspondences),
+          preparation_,
+          problem_);
+  result.correspondences_used = preparation_.rows.size();
+  result.correspondences_dropped = preparation_.dropped;
+  result.correspondences_invalid = preparation_.invalid;
+  std::optional<Pose> centred_guess;
+  if (guess && guess->rotation.allFinite() && guess->translation.allFinite())
+    centred_guess = toCentred(*guess);
+  clock.finish(&StageTimings::preparation);
+
+  if (problem_.size >= 3) {
+    // Only with viewpoints can the clouds tell which of thousands of poses is right.
+    const bool screen =
+        clouds && clouds->source.viewpoint() && clouds->target.viewpoint();
+    PoseEstimate estimate = backend_->run(problem_,
+                                          withRivals(parameters, clouds != nullptr),
+                                          centred_guess,
+                                          screen,
+                                          clock,
+                                          trace_);
+    CloudFindings findings;
+    if (clouds && estimate.status == Status::Ok)
+      askClouds(prepareClouds(*clouds), parameters, estimate, findings);
+    fill(result, estimate, findings, parameters);
+    clock.finish(&StageTimings::cloud_check);
+  }
+  clock.finishAll();
+  return result;
+}
+
+template Result
+PoseSearch::run(const CorrespondenceView<float>&,
+                const Parameters&,
+                const std::optional<RigidTransform>&,
+                const JudgingClouds*);
+template Result
+PoseSearch::run(const CorrespondenceView<double>&,
+                const Parameters&,
+                const std::optional<RigidTransform>&,
+                const JudgingClouds*);
+
+const char*
+toString(Status status)
+{
+  switch (status) {
+  case Status::Ok:
+    return "pose found";
+  case Status::TooFewCorrespondences:
+    return "fewer than three usable correspondences";
+  case Status::NoClique:
+    return "no three correspondences preserve their mutual distances";
+  case Status::Degenerate:
+    return "the consistent correspondences are collinear, coincident, or fewer than "
+           "three "
+           "agree with any pose";
+  }
+  return "unknown status";
+}
+
+} // namespace pcl_flashreg

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "estimation/backend.h"
+#include "estimation/preparation.h"
+#include "judgement/cloud_check.h"
+#include "judgement/cpu/surface.h"
+
+#include <pcl_flashreg/estimator.h>
+
+#include <variant>
+
+namespace pcl_flashreg {
+
+/** \brief A cloud that is to judge poses. */
+struct JudgingCloud {
+  std::variant<CloudView<float>, CloudView<double>> view;
+  /** \brief What to add to the view's coordinates to get those of the correspondences. */
+  Vec3 shift{0, 0, 0};
+
+  const std::optional<Eigen::Vector3d>&
+  viewpoint() const
+  {
+    return std::visit([](const auto& v) -> const auto& { return v.viewpoint; }, view);
+  }
+};
+
+struct JudgingClouds {
+  JudgingCloud source, target;
+  /** \brief Distance of neighbouring points. */
+  double spacing = 0;
+};
+
+/** \brief From correspondences to the pose and the verdict: preparation, the backend's
+ * stages, the clouds, the confidence. Keeps its memory from call to call. */
+class PoseSearch {
+public:
+  /** \param[in] num_threads of a pool of its own */
+  PoseSearch(BackendKind backend, unsigned num_threads);
+
+  /** \brief As Estimator::estimate(); clouds are null where there are none. */
+  template <typename Scalar>
+  Result
+  run(const CorrespondenceView<Scalar>& correspondences,
+      const Parameters& parameters,
+      const std::optional<RigidTransform>& guess,
+      const JudgingClouds* clouds);
+
+  /** \brief For other steps of the same call. */
+  ThreadPool&
+  pool()
+  {
+    return pool_;
+  }
+
+  std::string
+  backendName() const
+  {
+    return backend_->name();
+  }
+
+  void
+  setTrace(Trace* trace)
+  {
+    trace_ = trace;
+  }
+
+private:
+  SurfacePair
+  prepareClouds(const JudgingClouds& clouds);
+  void
+  askClouds(const SurfacePair& clouds,
+            const Parameters& parameters,
+            PoseEstimate& estimate,
+            CloudFindings& findings);
+
+  Pose
+  toCentred(const RigidTransform& T) const;
+  RigidTransform
+  toOriginal(const Pose& T) const;
+  void
+  fill(Result& result,
+       const PoseEstimate& estimate,
+       const CloudFindings& findings,
+       const Parameters& parameters) const;
+
+  ThreadPool pool_;
+  std::unique_ptr<Backend> backend_;
+  Trace* trace_ = nullptr;
+  Preparation preparation_;
+  Problem problem_;
+  Surface source_surface_, target_surface_;
+};
+
+extern template Result
+PoseSearch::run(const CorrespondenceView<float>&,
+                const Parameters&,
+                const std::optional<RigidTransform>&,
+                const JudgingClouds*);
+extern template Result
+PoseSearch::run(const CorrespondenceView<double>&,
+                const Parameters&,
+                const std::optional<RigidTransform>&,
+                const JudgingClouds*);
+
+} // namespace pcl_flashreg

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/scan.h>
+
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief What Scan's functions of the same names hand out; arrays have a row a keypoint,
+ * or none. */
+struct Scan::Data {
+  std::vector<float> points;
+  std::vector<float> normals;
+  std::vector<float> curvatures;
+  std::vector<float> descriptors;
+  /** \brief Values in a descriptor; 0 where there are none. */
+  std::size_t dimension = 0;
+  std::vector<std::int32_t> origins;
+  double spacing = 0;
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+
+  std::size_t
+  size() const
+  {
+    return points.size() / 3;
+  }
+};
+
+} // namespace pcl_flashreg

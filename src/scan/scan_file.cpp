@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+// A scan as bytes: a header, the arrays, each from a multiple of 64 bytes on, a checksum.
+// Numbers are little-endian.
+
+#include "scan/scan_data.h"
+#include "support/checksum.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <system_error>
+#include <thread>
+
+namespace pcl_flashreg {
+namespace {
+
+constexpr char MAGIC[8] = {'f', 'l', 's', 'c', 'a', 'n', '\r', '\n'};
+constexpr std::uint32_t VERSION = 1;
+constexpr std::uint32_t BYTE_ORDER_MARK = 0x01020304;
+constexpr std::size_t ALIGNMENT = 64;
+constexpr std::uint64_t HAS_VIEWPOINT = 1, HAS_ORIGINS = 2;
+
+struct Header {
+  char magic[8];
+  std::uint32_t version;
+  std::uint32_t byte_order;
+  std::uint64_t size;
+  std::uint64_t dimension;
+  std::uint64_t flags;
+  double spacing;
+  double shift[3];
+  double viewpoint[3];
+};
+static_assert(sizeof(Header) == 96, "no padding: the bytes are the format");
+
+std::size_t
+aligned(std::size_t size)
+{
+  return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
+
+void
+append(std::string& bytes, const void* data, std::size_t size)
+{
+  if (size > 0)
+    bytes.append(static_cast<const char*>(data), size);
+  bytes.resize(aligned(bytes.size()));
+}
+
+template <typename Value>
+void
+append(std::string& bytes, const std::vector<Value>& values)
+{
+  append(bytes, values.data(), values.size() * sizeof(Value));
+}
+
+/** \brief Bytes that a scan with this header has in all. */
+std::size_t
+sizeFor(const Header& header)
+{
+  const auto n = static_cast<std::size_t>(header.size);
+  std::size_t size = aligned(sizeof(Header));
+  for (const std::size_t row :
+       {std::size_t{3}, std::size_t{3}, std::size_t{1}, std::size_t{header.dimension}})
+    size += aligned(n * row * sizeof(float));
+  if (header.flags & HAS_ORIGINS)
+    size += aligned(n * sizeof(std::int32_t));
+  return size + sizeof(std::uint64_t);
+}
+
+template <typename Value>
+void
+take(std::string_view& bytes, std::size_t count, std::vector<Value>& values)
+{
+  values.resize(count);
+  if (count > 0)
+    std::memcpy(values.data(), bytes.data(), count * sizeof(Value));
+  bytes.remove_prefix(aligned(count * sizeof(Value)));
+}
+
+/** \brief What can be told before the arrays are looked at. */
+Header
+checkedHeader(std::string_view bytes)
+{
+  Header header;
+  if (bytes.size() < sizeof(header.magic) ||
+      std::memcmp(bytes.data(), MAGIC, sizeof(MAGIC)) != 0)
+    throw ScanFileError("is no scan: it does not begin as one");
+  if (bytes.size() < sizeof(header))
+    throw ScanFileError("is incomplete: it ends within its header");
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  if (header.byte_order != BYTE_ORDER_MARK)
+    throw ScanFileError("comes from a machine of another byte order, or is damaged");
+  if (header.version != VERSION)
+    throw ScanFileError("has format " + std::to_string(header.version) +
+                        ", this version of the library reads format " +
+                        std::to_string(VERSION));
+  constexpr std::uint64_t MOST_ROWS = std::numeric_limits<std::int32_t>::max();
+  constexpr std::uint64_t MOST_VALUES = 1 << 20;
+  if (header.size > MOST_ROWS || header.dimension > MOST_VALUES)
+    throw ScanFileError("is damaged: no scan has so many keypoints or values");
+  const std::size_t expected = sizeFor(header);
+  if (bytes.size() != expected)
+    throw ScanFileError("is incomplete or damaged: it has " +
+                        std::to_string(bytes.size()) + " bytes, its header says " +
+                        std::to_string(expected));
+  return header;
+}
+
+bool
+allFinite(const std::vector<float>& values)
+{
+  for (const float value : values)
+    if (!std::isfinite(value))
+      return false;
+  return true;
+}
+
+/** \brief What the rest of the library relies on, whoever wrote the bytes. */
+void
+checkContents(const Header& header, const Scan::Data& data)
+{
+  bool sound = data.size() == 0 || (data.spacing > 0 && std::isfinite(data.spacing));
+  sound = sound && data.shift.allFinite() && allFinite(data.points);
+  if (header.flags & HAS_VIEWPOINT)
+    for (const double coordinate : header.viewpoint)
+      sound = sound && std::isfinite(coordinate);
+  for (const std::int32_t origin : data.origins)
+    sound = sound && origin >= 0;
+  if (!sound)
+    throw ScanFileError("holds numbers that no scan has");
+}
+
+std::string
+reasonOf(int error)
+{
+  return std::generic_category().message(error);
+}
+
+} // namespace
+
+std::string
+Scan::serialize() const
+{
+  const Data& data = *data_;
+  Header header = {};
+  std::memcpy(header.magic, MAGIC, sizeof(MAGIC));
+  header.version = VERSION;
+  header.byte_order = BYTE_ORDER_MARK;
+  header.size = data.size();
+  header.dimension = data.dimension;
+  header.flags =
+      (viewpoint_ ? HAS_VIEWPOINT : 0) | (data.origins.empty() ? 0 : HAS_ORIGINS);
+  header.spacing = data.spacing;
+  Eigen::Map<Eigen::Vector3d>(header.shift) = data.shift;
+  if (viewpoint_)
+    Eigen::Map<Eigen::Vector3d>(header.viewpoint) = *viewpoint_;
+
+  std::string bytes;
+  bytes.reserve(sizeFor(header));
+  append(bytes, &header, sizeof(header));
+  append(bytes, data.points);
+  append(bytes, data.normals);
+  append(bytes, data.curvatures);
+  append(bytes, data.descriptors);
+  append(bytes, data.origins);
+  const std::uint64_t checksum = checksumOf(bytes.data(), bytes.size());
+  bytes.append(reinterpret_cast<const char*>(&checksum), sizeof(checksum));
+  return bytes;
+}
+
+Scan
+Scan::deserialize(std::string_view bytes)
+{
+  const Header header = checkedHeader(bytes);
+  std::uint64_t checksum;
+  const std::size_t end = bytes.size() - sizeof(checksum);
+  std::memcpy(&checksum, bytes.data() + end, sizeof(checksum));
+  if (checksum != checksumOf(bytes.data(), end))
+    throw ScanFileError("is damaged: its checksum is not that of its contents");
+
+  const auto data = std::make_shared<Data>();
+  const auto n = static_cast<std::size_t>(header.size);
+  data->dimension = static_cast<std::size_t>(header.dimension);
+  data->spacing = header.spacing;
+  data->shift = Eigen::Map<const Eigen::Vector3d>(header.shift);
+  bytes.remove_prefix(aligned(sizeof(header)));
+  take(bytes, 3 * n, data->points);
+  take(bytes, 3 * n, data->normals);
+  take(bytes, n, data->curvatures);
+  take(bytes, n * data->dimension, data->descriptors);
+  take(bytes, header.flags & HAS_ORIGINS ? n : 0, data->origins);
+  checkContents(header, *data);
+  std::optional<Eigen::Vector3d> viewpoint;
+  if (header.flags & HAS_VIEWPOINT)
+    viewpoint = Eigen::Map<const Eigen::Vector3d>(header.viewpoint);
+  return {data, viewpoint};
+}
+
+void
+Scan::save(const std::string& path) const
+{
+  const std::string bytes = serialize();
+  std::ostringstream temporary;
+  temporary << path << ".part" << std::this_thread::get_id();
+  const auto fail = [&](const std::string& reason) {
+    std::remove(temporary.str().c_str());
+    throw ScanFileError(path + ": cannot be written: " + reason);
+  };
+  {
+    std::ofstream file(temporary.str(), std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    if (!file)
+      fail(reasonOf(errno));
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary.str(), path, error);
+  if (error)
+    fail(error.message());
+}
+
+Scan
+Scan::load(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream contents;
+  if (!file || std::filesystem::is_directory(path))
+    throw ScanFileError(path + ": cannot be read: " +
+                        (file ? "is a directory" : reasonOf(errno)));
+  contents << file.rdbuf();
+  try {
+    return deserialize(contents.str());
+  }
+  catch (const ScanFileError& error) {
+    throw ScanFileError(path + ": " + error.what());
+  }
+}
+
+} // namespace pcl_flashreg

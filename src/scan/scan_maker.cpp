@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "scan/scan_maker.h"
+
+#include "scan/points.h"
+#include "scan/scan_data.h"
+#include "support/require.h"
+
+#include <pcl_flashreg/resolution.h>
+
+#include <Eigen/Geometry>
+
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace pcl_flashreg {
+namespace {
+
+template <typename Scalar>
+void
+checkRows(const ScanInput<Scalar>& input)
+{
+  check(input.points);
+  require(!input.normals || input.normal_stride >= 3,
+          "normal_stride",
+          input.normal_stride,
+          "it must be >= 3");
+  const FeatureView& features = input.features;
+  if (features.dimension == 0)
+    return;
+  require(features.size == input.points.size,
+          "features.size",
+          features.size,
+          "there must be one descriptor a point, of which there are " +
+              std::to_string(input.points.size));
+  require(features.size == 0 ||
+              (features.data && features.stride >= features.dimension),
+          "features.stride",
+          features.stride,
+          "descriptors need data and a stride >= their dimension");
+}
+
+template <typename Scalar>
+Eigen::Vector3d
+toEigen(const Scalar* point)
+{
+  return Eigen::Map<const Eigen::Matrix<Scalar, 3, 1>>(point).template cast<double>();
+}
+
+/** \brief What keypoints that are the caller's points take over from these. */
+void
+keepRows(const PreparedInput& input, Scan::Data& data)
+{
+  const FeatureView& features = input.features;
+  data.dimension = features.dimension;
+  for (std::size_t i = 0; i < countOf(input.points); ++i)
+    if (isFinite(pointOf(input.points, i)))
+      data.origins.push_back(static_cast<std::int32_t>(indexOf(input.points, i)));
+  data.descriptors.reserve(data.origins.size() * data.dimension);
+  for (const std::int32_t origin : data.origins) {
+    const float* row =
+        features.data + static_cast<std::size_t>(origin) * features.stride;
+    data.descriptors.insert(data.descriptors.end(), row, row + data.dimension);
+  }
+}
+
+} // namespace
+
+template <typename Scalar>
+Eigen::Vector3d
+singlePrecisionShift(const BasicPointView<Scalar>& points)
+{
+  // A hundred-thousandth of the extent: finer than any sensor resolves.
+  constexpr double FLOAT_STEP = std::numeric_limits<float>::epsilon();
+  constexpr double TOLERABLE = 1e-5;
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < countOf(points); ++i)
+    if (isFinite(pointOf(points, i)))
+      box.extend(toEigen(pointOf(points, i)));
+  if (box.isEmpty())
+    return Eigen::Vector3d::Zero();
+  const double farthest =
+      box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  const bool far = farthest * FLOAT_STEP > TOLERABLE * box.sizes().maxCoeff();
+  return far ? box.center() : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
+template Eigen::Vector3d
+singlePrecisionShift(const BasicPointView<float>&);
+template Eigen::Vector3d
+singlePrecisionShift(const BasicPointView<double>&);
+
+template <typename Scalar>
+PreparedInput::PreparedInput(const ScanInput<Scalar>& input)
+    : viewpoint(input.viewpoint),
+      viewpoint_known(input.viewpoint_known),
+      features(input.features),
+      made(input.made)
+{
+  checkRows(input);
+  for (const double coordinate : {viewpoint.x(), viewpoint.y(), viewpoint.z()})
+    require(std::isfinite(coordinate), "viewpoint", coordinate, "it must be finite");
+  shift = singlePrecisionShift(input.points);
+  if (!shift.isZero(0) && viewpoint.isZero(0)) {
+    viewpoint = shift;
+    viewpoint_known = false;
+  }
+  normals = {input.normals, input.normal_stride, viewpoint_known};
+  const BasicPointView<Scalar>& given = input.points;
+  if constexpr (std::is_same_v<Scalar, float>)
+    if (shift.isZero(0)) {
+      points = given;
+      return;
+    }
+  copy.resize(3 * given.size);
+  float* row = copy.data();
+  for (std::size_t i = 0; i < given.size; ++i, row += 3)
+    Eigen::Map<Eigen::Vector3f>(row, 3) =
+        (toEigen(given.data + i * given.stride) - shift).template cast<float>();
+  points = {copy.data(), given.size, 3, given.indices, given.index_count};
+}
+
+template PreparedInput::PreparedInput(const ScanInput<float>&);
+template PreparedInput::PreparedInput(const ScanInput<double>&);
+
+double
+estimateResolution(const PreparedInput& input)
+{
+  return input.features.dimension > 0 ? estimateVoxelSize(input.points)
+                                 : estimateResolution(input.points);
+}
+
+Scan
+ScanMaker::make(const PreparedInput& input,
+                double resolution,
+                ScanContent content,
+                FeatureTimings& timings)
+{
+  FeatureParameters parameters = FeatureParameters::fromResolution(resolution);
+  const bool wants_features = content == ScanContent::Descriptors;
+  if (input.made && input.made->spacing() == resolution &&
+      wants_features == (input.made->features().dimension > 0))
+    return *input.made;
+  Eigen::Map<Eigen::Vector3f>(parameters.viewpoint) =
+      (input.viewpoint - input.shift).cast<float>();
+  const auto data = std::make_shared<Scan::Data>();
+  data->spacing = resolution;
+  data->shift = input.shift;
+  const bool are_keypoints = wants_features && input.features.dimension > 0;
+  if (are_keypoints) {
+    parameters.voxel_size = 0;
+    content = ScanContent::Surface;
+    keepRows(input, *data);
+  }
+  runScanPipeline(stages_, input.points, input.normals, parameters, content, timings);
+  DescribedCloud keypoints = stages_.takeResult(content, are_keypoints);
+  data->points = std::move(keypoints.points);
+  data->normals = std::move(keypoints.normals);
+  data->curvatures = std::move(keypoints.curvatures);
+  if (content == ScanContent::Descriptors) {
+    data->descriptors = std::move(keypoints.descriptors);
+    data->dimension = keypoints.features().dimension;
+  }
+  const std::optional<Eigen::Vector3d> nowhere;
+  return {data, input.viewpoint_known ? input.viewpoint : nowhere};
+}
+
+} // namespace pcl_flashreg

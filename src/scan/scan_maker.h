@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "scan/cpu/feature_stages.h"
+
+#include <pcl_flashreg/scan.h>
+
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief A ScanInput, checked, in single precision, and shifted where that takes it; what
+ * it was made from must stay. */
+struct PreparedInput {
+  /** \throws std::invalid_argument if a stride, a size or an index is out of range */
+  template <typename Scalar>
+  explicit PreparedInput(const ScanInput<Scalar>& input);
+
+  PointView points;
+  /** \brief Where the points had to be rounded or shifted. */
+  std::vector<float> copy;
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  Eigen::Vector3d viewpoint;
+  bool viewpoint_known;
+  GivenNormals normals;
+  FeatureView features;
+  const Scan* made;
+};
+
+extern template PreparedInput::PreparedInput(const ScanInput<float>&);
+extern template PreparedInput::PreparedInput(const ScanInput<double>&);
+
+/** \brief The resolution that suits a cloud, where nobody gave one: of keypoints with
+ * descriptors that is the size of their voxels.
+ * \throws std::invalid_argument as estimateResolution() */
+double
+estimateResolution(const PreparedInput& input);
+
+/** \brief Makes scans, with threads that it is lent and memory of its own. */
+class ScanMaker {
+public:
+  explicit ScanMaker(ThreadPool& pool) : stages_(cpu::selectKernels(), pool) {}
+
+  /** \throws std::invalid_argument if the resolution is no length, or too small for the
+   * extent of the cloud */
+  Scan
+  make(const PreparedInput& input,
+       double resolution,
+       ScanContent content,
+       FeatureTimings& timings);
+
+private:
+  cpu::FeatureStages stages_;
+};
+
+} // namespace pcl_flashreg
