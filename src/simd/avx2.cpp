@@ -46,21 +46,6 @@ struct Avx2 {
     return _mm256_set1_ps(x);
   }
   static Float
-  add(Float a, Float b)
-  {
-    return _mm256_add_ps(a, b);
-  }
-  static Float
-  sub(Float a, Float b)
-  {
-    return _mm256_sub_ps(a, b);
-  }
-  static Float
-  mul(Float a, Float b)
-  {
-    return _mm256_mul_ps(a, b);
-  }
-  static Float
   fma(Float a, Float b, Float c)
   {
     return _mm256_fmadd_ps(a, b, c);
@@ -100,11 +85,6 @@ struct Avx2 {
   {
     const auto* vector = reinterpret_cast<const __m256i*>(indices);
     return _mm256_i32gather_ps(base, _mm256_loadu_si256(vector), sizeof(float));
-  }
-  static Float
-  div(Float a, Float b)
-  {
-    return _mm256_div_ps(a, b);
   }
   static Float
   sqrt(Float a)

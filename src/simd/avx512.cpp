@@ -30,21 +30,6 @@ struct Avx512 {
     return _mm512_set1_ps(x);
   }
   static Float
-  add(Float a, Float b)
-  {
-    return _mm512_add_ps(a, b);
-  }
-  static Float
-  sub(Float a, Float b)
-  {
-    return _mm512_sub_ps(a, b);
-  }
-  static Float
-  mul(Float a, Float b)
-  {
-    return _mm512_mul_ps(a, b);
-  }
-  static Float
   fma(Float a, Float b, Float c)
   {
     return _mm512_fmadd_ps(a, b, c);
@@ -83,11 +68,6 @@ struct Avx512 {
   gather(const float* base, const std::uint32_t* indices)
   {
     return _mm512_i32gather_ps(_mm512_loadu_si512(indices), base, sizeof(float));
-  }
-  static Float
-  div(Float a, Float b)
-  {
-    return _mm512_div_ps(a, b);
   }
   static Float
   sqrt(Float a)

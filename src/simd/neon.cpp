@@ -30,21 +30,6 @@ struct Neon {
     return vdupq_n_f32(x);
   }
   static Float
-  add(Float a, Float b)
-  {
-    return vaddq_f32(a, b);
-  }
-  static Float
-  sub(Float a, Float b)
-  {
-    return vsubq_f32(a, b);
-  }
-  static Float
-  mul(Float a, Float b)
-  {
-    return vmulq_f32(a, b);
-  }
-  static Float
   fma(Float a, Float b, Float c)
   {
     return vfmaq_f32(c, a, b);
@@ -86,11 +71,6 @@ struct Neon {
     const Float values = {
         base[indices[0]], base[indices[1]], base[indices[2]], base[indices[3]]};
     return values;
-  }
-  static Float
-  div(Float a, Float b)
-  {
-    return vdivq_f32(a, b);
   }
   static Float
   sqrt(Float a)

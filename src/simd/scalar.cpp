@@ -45,26 +45,6 @@ struct OneLane {
     return x;
   }
   static Float
-  add(Float a, Float b)
-  {
-    return a + b;
-  }
-  static Float
-  sub(Float a, Float b)
-  {
-    return a - b;
-  }
-  static Float
-  mul(Float a, Float b)
-  {
-    return a * b;
-  }
-  static Float
-  div(Float a, Float b)
-  {
-    return a / b;
-  }
-  static Float
   sqrt(Float a)
   {
     return __builtin_sqrtf(a);

@@ -7,9 +7,10 @@
 // floats. Everything stands in an unnamed namespace, and nothing but these headers is
 // included, so that no code compiled with instruction-set flags leaks out of its file.
 //
-// V offers: Float, Mask; WIDTH; load, broadcast, add, sub, mul, fma(a, b, c) = a * b + c;
-// less(a, b), lessAnd(mask, a, b), greaterAnd(mask, a, b); store(mask, words, group), which
-// puts WIDTH bits at bit group * WIDTH of the little-endian words.
+// V offers: Float, which compilers give the operators of a float; Mask; WIDTH; load,
+// broadcast, fma(a, b, c) = a * b + c; less(a, b), lessAnd(mask, a, b), greaterAnd(mask, a,
+// b); store(mask, words, group), which puts WIDTH bits at bit group * WIDTH of the
+// little-endian words.
 //
 // Products and sums are contracted here on purpose: these tests only decide what is
 // certain, and leave the rest to the exact formulas.
@@ -39,27 +40,27 @@ edgeTestSimd(const EdgeTestInput& in,
 
   for (std::size_t group = 0; group < 64 / V::WIDTH; ++group) {
     const std::size_t j = column0 + group * V::WIDTH;
-    const Float sx = V::mul(minus_two, V::load(in.sx + j));
-    const Float sy = V::mul(minus_two, V::load(in.sy + j));
-    const Float sz = V::mul(minus_two, V::load(in.sz + j));
-    const Float tx = V::mul(minus_two, V::load(in.tx + j));
-    const Float ty = V::mul(minus_two, V::load(in.ty + j));
-    const Float tz = V::mul(minus_two, V::load(in.tz + j));
+    const Float sx = minus_two * V::load(in.sx + j);
+    const Float sy = minus_two * V::load(in.sy + j);
+    const Float sz = minus_two * V::load(in.sz + j);
+    const Float tx = minus_two * V::load(in.tx + j);
+    const Float ty = minus_two * V::load(in.ty + j);
+    const Float tz = minus_two * V::load(in.tz + j);
     const Float source_norm = V::load(in.source_norm + j);
     const Float target_norm = V::load(in.target_norm + j);
     for (std::size_t row = 0; row < 64; ++row) {
       const std::size_t i = row0 + row;
       // a = |s_i - s_j|^2 and b = |t_i - t_j|^2 from norms and inner products.
-      Float a = V::add(source_norm, V::broadcast(in.source_norm[i]));
-      Float b = V::add(target_norm, V::broadcast(in.target_norm[i]));
+      Float a = source_norm + V::broadcast(in.source_norm[i]);
+      Float b = target_norm + V::broadcast(in.target_norm[i]);
       a = V::fma(sx, V::broadcast(in.sx[i]), a);
       b = V::fma(tx, V::broadcast(in.tx[i]), b);
       a = V::fma(sy, V::broadcast(in.sy[i]), a);
       b = V::fma(ty, V::broadcast(in.ty[i]), b);
       a = V::fma(sz, V::broadcast(in.sz[i]), a);
       b = V::fma(tz, V::broadcast(in.tz[i]), b);
-      const Float difference = V::sub(a, b);
-      const Float sum = V::add(a, b);
+      const Float difference = a - b;
+      const Float sum = a + b;
       const Float defect =
           V::fma(difference, difference, V::fma(minus_two_tau2, sum, tau4));
       auto is_possible = V::less(defect, possible_defect);
@@ -95,13 +96,13 @@ residualTestSimd(const ResidualInput& in,
       const Float sx = V::load(in.sx + i);
       const Float sy = V::load(in.sy + i);
       const Float sz = V::load(in.sz + i);
-      Float dx = V::sub(t[0], V::load(in.tx + i));
-      Float dy = V::sub(t[1], V::load(in.ty + i));
-      Float dz = V::sub(t[2], V::load(in.tz + i));
+      Float dx = t[0] - V::load(in.tx + i);
+      Float dy = t[1] - V::load(in.ty + i);
+      Float dz = t[2] - V::load(in.tz + i);
       dx = V::fma(r[0], sx, V::fma(r[1], sy, V::fma(r[2], sz, dx)));
       dy = V::fma(r[3], sx, V::fma(r[4], sy, V::fma(r[5], sz, dy)));
       dz = V::fma(r[6], sx, V::fma(r[7], sy, V::fma(r[8], sz, dz)));
-      const Float squared = V::fma(dz, dz, V::fma(dy, dy, V::mul(dx, dx)));
+      const Float squared = V::fma(dz, dz, V::fma(dy, dy, dx * dx));
       const auto is_possible = V::less(squared, possible_limit);
       const auto is_sure = V::lessAnd(is_possible, squared, sure_limit);
       V::store(is_possible, possible + word, group);

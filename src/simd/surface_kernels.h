@@ -5,7 +5,7 @@
 
 // Hot loops of normals and point feature histograms, written once over a type V as those
 // of simd_kernels.h; the same rules hold. V offers besides: loadUnaligned, gather(base,
-// indices), select(mask, a, b), div, sqrt, abs, both(mask, mask), firstLanes(n),
+// indices), select(mask, a, b), sqrt, abs, both(mask, mask), firstLanes(n),
 // compress(mask, first, values, indices, out), storeTruncated(bins, values).
 //
 // No product and sum is contracted here, and sums run in NEIGHBOR_BLOCK lanes: these
@@ -36,11 +36,10 @@ collectNeighborsSimd(const SurfaceArrays& points,
   std::size_t count = 0;
   for (std::size_t run = 0; run < run_count; ++run)
     for (std::size_t i = runs[run].begin; i < runs[run].end; i += V::WIDTH) {
-      const Float dx = V::sub(V::loadUnaligned(points.x + i), qx);
-      const Float dy = V::sub(V::loadUnaligned(points.y + i), qy);
-      const Float dz = V::sub(V::loadUnaligned(points.z + i), qz);
-      const Float squared =
-          V::add(V::add(V::mul(dx, dx), V::mul(dy, dy)), V::mul(dz, dz));
+      const Float dx = V::loadUnaligned(points.x + i) - qx;
+      const Float dy = V::loadUnaligned(points.y + i) - qy;
+      const Float dz = V::loadUnaligned(points.z + i) - qz;
+      const Float squared = (dx * dx + dy * dy) + dz * dz;
       auto near = V::less(squared, limit);
       if (runs[run].end - i < V::WIDTH)
         near = V::both(near, V::firstLanes(runs[run].end - i));
@@ -71,18 +70,18 @@ momentSumsSimd(const SurfaceArrays& points,
     for (Float& s : sum)
       s = V::broadcast(0.0f);
     for (std::size_t n = lane; n < count; n += NEIGHBOR_BLOCK) {
-      const Float dx = V::sub(V::gather(points.x, indices + n), qx);
-      const Float dy = V::sub(V::gather(points.y, indices + n), qy);
-      const Float dz = V::sub(V::gather(points.z, indices + n), qz);
-      sum[0] = V::add(sum[0], dx);
-      sum[1] = V::add(sum[1], dy);
-      sum[2] = V::add(sum[2], dz);
-      sum[3] = V::add(sum[3], V::mul(dx, dx));
-      sum[4] = V::add(sum[4], V::mul(dx, dy));
-      sum[5] = V::add(sum[5], V::mul(dx, dz));
-      sum[6] = V::add(sum[6], V::mul(dy, dy));
-      sum[7] = V::add(sum[7], V::mul(dy, dz));
-      sum[8] = V::add(sum[8], V::mul(dz, dz));
+      const Float dx = V::gather(points.x, indices + n) - qx;
+      const Float dy = V::gather(points.y, indices + n) - qy;
+      const Float dz = V::gather(points.z, indices + n) - qz;
+      sum[0] += dx;
+      sum[1] += dy;
+      sum[2] += dz;
+      sum[3] += dx * dx;
+      sum[4] += dx * dy;
+      sum[5] += dx * dz;
+      sum[6] += dy * dy;
+      sum[7] += dy * dz;
+      sum[8] += dz * dz;
     }
     for (std::size_t k = 0; k < 9; ++k)
       V::storeUnaligned(lanes[k] + lane, sum[k]);
@@ -100,7 +99,7 @@ template <typename V>
 typename V::Mask
 largerAngles(typename V::Float a, typename V::Float b)
 {
-  const auto close = V::less(V::abs(V::sub(a, b)), V::broadcast(NEARLY_EQUAL_COSINES));
+  const auto close = V::less(V::abs(a - b), V::broadcast(NEARLY_EQUAL_COSINES));
   if (V::bits(close) == 0)
     return V::less(a, b);
   float first[V::WIDTH], second[V::WIDTH], larger[V::WIDTH];
@@ -165,37 +164,39 @@ pairBinsSimd(const SurfaceArrays& points,
   const Float qnx = V::gather(points.nx, indices);
   const Float qny = V::gather(points.ny, indices);
   const Float qnz = V::gather(points.nz, indices);
-  Float dx = V::sub(V::gather(points.x, indices), V::broadcast(query.x));
-  Float dy = V::sub(V::gather(points.y, indices), V::broadcast(query.y));
-  Float dz = V::sub(V::gather(points.z, indices), V::broadcast(query.z));
+  Float dx = V::gather(points.x, indices) - V::broadcast(query.x);
+  Float dy = V::gather(points.y, indices) - V::broadcast(query.y);
+  Float dz = V::gather(points.z, indices) - V::broadcast(query.z);
 
   const auto dot = [](Float ax, Float ay, Float az, Float bx, Float by, Float bz) {
-    return V::add(V::add(V::mul(ax, bx), V::mul(az, bz)), V::mul(ay, by));
+    // Last to first, so that GCC keeps more of the constants in registers.
+    const Float y = ay * by, z = az * bz;
+    return (ax * bx + z) + y;
   };
   const Float length = V::sqrt(dot(dx, dy, dz, dx, dy, dz));
-  const Float along_p = V::div(dot(pnx, pny, pnz, dx, dy, dz), length);
-  const Float along_q = V::div(dot(qnx, qny, qnz, dx, dy, dz), length);
+  const Float along_p = dot(pnx, pny, pnz, dx, dy, dz) / length;
+  const Float along_q = dot(qnx, qny, qnz, dx, dy, dz) / length;
   const Float cosine = dot(pnx, pny, pnz, qnx, qny, qnz);
   const auto swap = largerAngles<V>(V::abs(along_p), V::abs(along_q));
   const Float ux = V::select(swap, qnx, pnx), tx = V::select(swap, pnx, qnx);
   const Float uy = V::select(swap, qny, pny), ty = V::select(swap, pny, qny);
   const Float uz = V::select(swap, qnz, pnz), tz = V::select(swap, pnz, qnz);
-  dx = V::select(swap, V::sub(zero, dx), dx);
-  dy = V::select(swap, V::sub(zero, dy), dy);
-  dz = V::select(swap, V::sub(zero, dz), dz);
-  const Float phi = V::select(swap, V::sub(zero, along_q), along_p);
-  const Float along_t = V::select(swap, V::sub(zero, along_p), along_q);
+  dx = V::select(swap, zero - dx, dx);
+  dy = V::select(swap, zero - dy, dy);
+  dz = V::select(swap, zero - dz, dz);
+  const Float phi = V::select(swap, zero - along_q, along_p);
+  const Float along_t = V::select(swap, zero - along_p, along_q);
 
-  const Float vx = V::sub(V::mul(dy, uz), V::mul(dz, uy));
-  const Float vy = V::sub(V::mul(dz, ux), V::mul(dx, uz));
-  const Float vz = V::sub(V::mul(dx, uy), V::mul(dy, ux));
+  const Float vx = dy * uz - dz * uy;
+  const Float vy = dz * ux - dx * uz;
+  const Float vz = dx * uy - dy * ux;
   const Float v_length = V::sqrt(dot(vx, vy, vz, vx, vy, vz));
   const Float v[3] = {vx, vy, vz}, u[3] = {ux, uy, uz}, t[3] = {tx, ty, tz};
-  const Float turn = settleHalfTurns<V>(
-      V::sub(along_t, V::mul(phi, cosine)), cosine, v, v_length, u, t);
-  const Float turn_y = V::mul(turn, length);
-  const Float turn_x = V::mul(cosine, v_length);
-  const Float alpha = V::div(dot(vx, vy, vz, tx, ty, tz), v_length);
+  const Float turn =
+      settleHalfTurns<V>(along_t - phi * cosine, cosine, v, v_length, u, t);
+  const Float turn_y = turn * length;
+  const Float turn_x = cosine * v_length;
+  const Float alpha = dot(vx, vy, vz, tx, ty, tz) / v_length;
   const auto valid = V::both(V::both(V::less(zero, length), V::less(zero, v_length)),
                              V::less(V::broadcast(-2.0f), alpha));
 
@@ -205,15 +206,15 @@ pairBinsSimd(const SurfaceArrays& points,
   const Float one = V::broadcast(1.0f), five = V::broadcast(5.0f);
   Float sectors = zero;
   for (int k = 0; k < 5; ++k) {
-    const Float side = V::sub(V::mul(upper_y, V::broadcast(COSINES[k])),
-                              V::mul(turn_x, V::broadcast(SINES[k])));
-    sectors = V::add(sectors, V::select(V::less(zero, side), one, zero));
+    const Float side =
+        upper_y * V::broadcast(COSINES[k]) - turn_x * V::broadcast(SINES[k]);
+    sectors += V::select(V::less(zero, side), one, zero);
   }
   const Float turn_bin =
-      V::select(V::less(turn_y, zero), V::sub(five, sectors), V::add(five, sectors));
+      V::select(V::less(turn_y, zero), five - sectors, five + sectors);
   const Float half_bins = V::broadcast(5.5f), last = V::broadcast(10.0f);
   const auto binOf = [&](Float value) {
-    const Float bin = V::add(V::mul(value, half_bins), half_bins);
+    const Float bin = value * half_bins + half_bins;
     return V::select(
         V::less(bin, zero), zero, V::select(V::less(last, bin), last, bin));
   };
@@ -278,7 +279,7 @@ weightedRowSumSimd(const float* rows,
       const Float weight = V::broadcast(weights[n]);
       const float* row = rows + indices[n] * HISTOGRAM_STRIDE + first;
       for (std::size_t k = 0; k < REGISTERS; ++k)
-        sums[k] = V::add(sums[k], V::mul(weight, V::load(row + k * V::WIDTH)));
+        sums[k] += weight * V::load(row + k * V::WIDTH);
     }
     for (std::size_t k = 0; k < REGISTERS; ++k)
       V::storeUnaligned(sum + first + k * V::WIDTH, sums[k]);
