@@ -30,16 +30,12 @@ constexpr SetBits SET_BITS;
 
 struct Avx2 {
   using Float = __m256;
+  using Unaligned = __m256_u;
   using Mask = __m256;
   static constexpr std::size_t WIDTH = 8;
   static constexpr std::size_t QUERY_ROWS = 4;
   static constexpr std::size_t FEATURE_GROUPS = 2;
 
-  static Float
-  load(const float* p)
-  {
-    return _mm256_load_ps(p);
-  }
   static Float
   broadcast(float x)
   {
@@ -69,16 +65,6 @@ struct Avx2 {
   bits(Mask mask)
   {
     return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
-  }
-  static Float
-  loadUnaligned(const float* p)
-  {
-    return _mm256_loadu_ps(p);
-  }
-  static void
-  storeUnaligned(float* p, Float a)
-  {
-    _mm256_storeu_ps(p, a);
   }
   static Float
   gather(const float* base, const std::uint32_t* indices)

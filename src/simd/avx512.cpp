@@ -14,16 +14,12 @@ namespace {
 
 struct Avx512 {
   using Float = __m512;
+  using Unaligned = __m512_u;
   using Mask = __mmask16;
   static constexpr std::size_t WIDTH = 16;
   static constexpr std::size_t QUERY_ROWS = 8;
   static constexpr std::size_t FEATURE_GROUPS = 2;
 
-  static Float
-  load(const float* p)
-  {
-    return _mm512_load_ps(p);
-  }
   static Float
   broadcast(float x)
   {
@@ -53,16 +49,6 @@ struct Avx512 {
   bits(Mask mask)
   {
     return mask;
-  }
-  static Float
-  loadUnaligned(const float* p)
-  {
-    return _mm512_loadu_ps(p);
-  }
-  static void
-  storeUnaligned(float* p, Float a)
-  {
-    _mm512_storeu_ps(p, a);
   }
   static Float
   gather(const float* base, const std::uint32_t* indices)

@@ -14,16 +14,12 @@ namespace {
 
 struct Neon {
   using Float = float32x4_t;
+  using Unaligned __attribute__((aligned(4))) = Float;
   using Mask = uint32x4_t;
   static constexpr std::size_t WIDTH = 4;
   static constexpr std::size_t QUERY_ROWS = 4;
   static constexpr std::size_t FEATURE_GROUPS = 4;
 
-  static Float
-  load(const float* p)
-  {
-    return vld1q_f32(p);
-  }
   static Float
   broadcast(float x)
   {
@@ -54,16 +50,6 @@ struct Neon {
   {
     const uint32x4_t lane_bits = {1, 2, 4, 8};
     return vaddvq_u32(vandq_u32(mask, lane_bits));
-  }
-  static Float
-  loadUnaligned(const float* p)
-  {
-    return vld1q_f32(p);
-  }
-  static void
-  storeUnaligned(float* p, Float a)
-  {
-    vst1q_f32(p, a);
   }
   static Float
   gather(const float* base, const std::uint32_t* indices)

@@ -16,24 +16,10 @@ namespace {
 /** \brief One float at a time. */
 struct OneLane {
   using Float = float;
+  using Unaligned = float;
   using Mask = bool;
   static constexpr std::size_t WIDTH = 1;
 
-  static Float
-  load(const float* p)
-  {
-    return *p;
-  }
-  static Float
-  loadUnaligned(const float* p)
-  {
-    return *p;
-  }
-  static void
-  storeUnaligned(float* p, Float a)
-  {
-    *p = a;
-  }
   static Float
   gather(const float* base, const std::uint32_t* indices)
   {

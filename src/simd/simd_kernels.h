@@ -7,10 +7,10 @@
 // floats. Everything stands in an unnamed namespace, and nothing but these headers is
 // included, so that no code compiled with instruction-set flags leaks out of its file.
 //
-// V offers: Float, which compilers give the operators of a float; Mask; WIDTH; load,
-// broadcast, fma(a, b, c) = a * b + c; less(a, b), lessAnd(mask, a, b), greaterAnd(mask, a,
-// b); store(mask, words, group), which puts WIDTH bits at bit group * WIDTH of the
-// little-endian words.
+// V offers: Float, which compilers give the operators of a float; Unaligned, the same
+// wherever floats may stand; Mask; WIDTH; broadcast, fma(a, b, c) = a * b + c; less(a, b),
+// lessAnd(mask, a, b), greaterAnd(mask, a, b); store(mask, words, group), which puts WIDTH
+// bits at bit group * WIDTH of the little-endian words.
 //
 // Products and sums are contracted here on purpose: these tests only decide what is
 // certain, and leave the rest to the exact formulas.
@@ -20,6 +20,28 @@
 namespace pcl_flashreg {
 namespace cpu {
 namespace {
+
+/** \brief Floats from an address that is a multiple of the register's size. */
+template <typename V>
+typename V::Float
+loadAligned(const float* p)
+{
+  return *reinterpret_cast<const typename V::Float*>(p);
+}
+
+template <typename V>
+typename V::Float
+load(const float* p)
+{
+  return *reinterpret_cast<const typename V::Unaligned*>(p);
+}
+
+template <typename V>
+void
+store(float* p, typename V::Float a)
+{
+  *reinterpret_cast<typename V::Unaligned*>(p) = a;
+}
 
 template <typename V>
 void
@@ -40,14 +62,14 @@ edgeTestSimd(const EdgeTestInput& in,
 
   for (std::size_t group = 0; group < 64 / V::WIDTH; ++group) {
     const std::size_t j = column0 + group * V::WIDTH;
-    const Float sx = minus_two * V::load(in.sx + j);
-    const Float sy = minus_two * V::load(in.sy + j);
-    const Float sz = minus_two * V::load(in.sz + j);
-    const Float tx = minus_two * V::load(in.tx + j);
-    const Float ty = minus_two * V::load(in.ty + j);
-    const Float tz = minus_two * V::load(in.tz + j);
-    const Float source_norm = V::load(in.source_norm + j);
-    const Float target_norm = V::load(in.target_norm + j);
+    const Float sx = minus_two * loadAligned<V>(in.sx + j);
+    const Float sy = minus_two * loadAligned<V>(in.sy + j);
+    const Float sz = minus_two * loadAligned<V>(in.sz + j);
+    const Float tx = minus_two * loadAligned<V>(in.tx + j);
+    const Float ty = minus_two * loadAligned<V>(in.ty + j);
+    const Float tz = minus_two * loadAligned<V>(in.tz + j);
+    const Float source_norm = loadAligned<V>(in.source_norm + j);
+    const Float target_norm = loadAligned<V>(in.target_norm + j);
     for (std::size_t row = 0; row < 64; ++row) {
       const std::size_t i = row0 + row;
       // a = |s_i - s_j|^2 and b = |t_i - t_j|^2 from norms and inner products.
@@ -93,12 +115,12 @@ residualTestSimd(const ResidualInput& in,
   for (std::size_t word = 0; word < words; ++word)
     for (std::size_t group = 0; group < 64 / V::WIDTH; ++group) {
       const std::size_t i = 64 * (first_word + word) + group * V::WIDTH;
-      const Float sx = V::load(in.sx + i);
-      const Float sy = V::load(in.sy + i);
-      const Float sz = V::load(in.sz + i);
-      Float dx = t[0] - V::load(in.tx + i);
-      Float dy = t[1] - V::load(in.ty + i);
-      Float dz = t[2] - V::load(in.tz + i);
+      const Float sx = loadAligned<V>(in.sx + i);
+      const Float sy = loadAligned<V>(in.sy + i);
+      const Float sz = loadAligned<V>(in.sz + i);
+      Float dx = t[0] - loadAligned<V>(in.tx + i);
+      Float dy = t[1] - loadAligned<V>(in.ty + i);
+      Float dz = t[2] - loadAligned<V>(in.tz + i);
       dx = V::fma(r[0], sx, V::fma(r[1], sy, V::fma(r[2], sz, dx)));
       dy = V::fma(r[3], sx, V::fma(r[4], sy, V::fma(r[5], sz, dy)));
       dz = V::fma(r[6], sx, V::fma(r[7], sy, V::fma(r[8], sz, dz)));
@@ -135,7 +157,7 @@ featureCandidatesSimd(const FeatureBlock& in,
       for (std::size_t d = 0; d < in.dimension; ++d) {
         Float t[GROUPS];
         for (std::size_t g = 0; g < GROUPS; ++g)
-          t[g] = V::load(targets + d * FEATURE_BLOCK + (group + g) * V::WIDTH);
+          t[g] = loadAligned<V>(targets + d * FEATURE_BLOCK + (group + g) * V::WIDTH);
         for (std::size_t q = 0; q < ROWS; ++q) {
           const Float value =
               V::broadcast(queries.values[(first + q) * in.dimension + d]);
@@ -145,7 +167,7 @@ featureCandidatesSimd(const FeatureBlock& in,
       }
       for (std::size_t q = 0; q < ROWS; ++q)
         for (std::size_t g = 0; g < GROUPS; ++g) {
-          const Float norm = V::load(norms + (group + g) * V::WIDTH);
+          const Float norm = loadAligned<V>(norms + (group + g) * V::WIDTH);
           const Float distance = V::fma(minus_two, products[q][g], norm);
           const auto near =
               V::less(distance, V::broadcast(queries.thresholds[first + q]));

@@ -4,14 +4,14 @@
 #pragma once
 
 // Hot loops of normals and point feature histograms, written once over a type V as those
-// of simd_kernels.h; the same rules hold. V offers besides: loadUnaligned, gather(base,
-// indices), select(mask, a, b), sqrt, abs, both(mask, mask), firstLanes(n),
-// compress(mask, first, values, indices, out), storeTruncated(bins, values).
+// of simd_kernels.h; the same rules hold. V offers besides: gather(base, indices),
+// select(mask, a, b), sqrt, abs, both(mask, mask), firstLanes(n), compress(mask, first,
+// values, indices, out), storeTruncated(bins, values).
 //
 // No product and sum is contracted here, and sums run in NEIGHBOR_BLOCK lanes: these
 // results are final, and the same for every V.
 
-#include "simd/kernels.h"
+#include "simd/simd_kernels.h"
 #include "math/pair_features.h"
 
 namespace pcl_flashreg {
@@ -36,9 +36,9 @@ collectNeighborsSimd(const SurfaceArrays& points,
   std::size_t count = 0;
   for (std::size_t run = 0; run < run_count; ++run)
     for (std::size_t i = runs[run].begin; i < runs[run].end; i += V::WIDTH) {
-      const Float dx = V::loadUnaligned(points.x + i) - qx;
-      const Float dy = V::loadUnaligned(points.y + i) - qy;
-      const Float dz = V::loadUnaligned(points.z + i) - qz;
+      const Float dx = load<V>(points.x + i) - qx;
+      const Float dy = load<V>(points.y + i) - qy;
+      const Float dz = load<V>(points.z + i) - qz;
       const Float squared = (dx * dx + dy * dy) + dz * dz;
       auto near = V::less(squared, limit);
       if (runs[run].end - i < V::WIDTH)
@@ -84,7 +84,7 @@ momentSumsSimd(const SurfaceArrays& points,
       sum[8] += dz * dz;
     }
     for (std::size_t k = 0; k < 9; ++k)
-      V::storeUnaligned(lanes[k] + lane, sum[k]);
+      store<V>(lanes[k] + lane, sum[k]);
   }
   for (std::size_t k = 0; k < 9; ++k) {
     for (std::size_t half = NEIGHBOR_BLOCK / 2; half > 0; half /= 2)
@@ -103,11 +103,11 @@ largerAngles(typename V::Float a, typename V::Float b)
   if (V::bits(close) == 0)
     return V::less(a, b);
   float first[V::WIDTH], second[V::WIDTH], larger[V::WIDTH];
-  V::storeUnaligned(first, a);
-  V::storeUnaligned(second, b);
+  store<V>(first, a);
+  store<V>(second, b);
   for (std::size_t lane = 0; lane < V::WIDTH; ++lane)
     larger[lane] = isLargerAngle(first[lane], second[lane]) ? 1.0f : 0.0f;
-  return V::less(V::broadcast(0.0f), V::loadUnaligned(larger));
+  return V::less(V::broadcast(0.0f), load<V>(larger));
 }
 
 /** \brief Puts halfTurn() where isHalfTurn() says so. */
@@ -126,12 +126,12 @@ settleHalfTurns(typename V::Float turn_y,
   if (lanes == 0)
     return turn_y;
   float turns[V::WIDTH], lengths[V::WIDTH], all[3][3][V::WIDTH];
-  V::storeUnaligned(turns, turn_y);
-  V::storeUnaligned(lengths, v_length);
+  store<V>(turns, turn_y);
+  store<V>(lengths, v_length);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    V::storeUnaligned(all[0][axis], v[axis]);
-    V::storeUnaligned(all[1][axis], u[axis]);
-    V::storeUnaligned(all[2][axis], t[axis]);
+    store<V>(all[0][axis], v[axis]);
+    store<V>(all[1][axis], u[axis]);
+    store<V>(all[2][axis], t[axis]);
   }
   for (std::size_t lane = 0; lane < V::WIDTH; ++lane) {
     if (!(lanes >> lane & 1))
@@ -142,7 +142,7 @@ settleHalfTurns(typename V::Float turn_y,
         of_lane[k][axis] = all[k][axis][lane];
     turns[lane] = halfTurn(of_lane[0], lengths[lane], of_lane[1], of_lane[2]);
   }
-  return V::loadUnaligned(turns);
+  return load<V>(turns);
 }
 
 /** \brief pairBins() for V::WIDTH pairs; lanes that make no pair get bin FPFH_BINS in all
@@ -279,10 +279,10 @@ weightedRowSumSimd(const float* rows,
       const Float weight = V::broadcast(weights[n]);
       const float* row = rows + indices[n] * HISTOGRAM_STRIDE + first;
       for (std::size_t k = 0; k < REGISTERS; ++k)
-        sums[k] += weight * V::load(row + k * V::WIDTH);
+        sums[k] += weight * loadAligned<V>(row + k * V::WIDTH);
     }
     for (std::size_t k = 0; k < REGISTERS; ++k)
-      V::storeUnaligned(sum + first + k * V::WIDTH, sums[k]);
+      store<V>(sum + first + k * V::WIDTH, sums[k]);
   }
 }
 
