@@ -56,11 +56,6 @@ struct Avx2 {
   {
     return _mm256_and_ps(mask, _mm256_cmp_ps(a, b, _CMP_LT_OQ));
   }
-  static Mask
-  greaterAnd(Mask mask, Float a, Float b)
-  {
-    return _mm256_and_ps(mask, _mm256_cmp_ps(a, b, _CMP_GT_OQ));
-  }
   static std::uint32_t
   bits(Mask mask)
   {

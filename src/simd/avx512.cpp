@@ -40,11 +40,6 @@ struct Avx512 {
   {
     return _mm512_mask_cmp_ps_mask(mask, a, b, _CMP_LT_OQ);
   }
-  static Mask
-  greaterAnd(Mask mask, Float a, Float b)
-  {
-    return _mm512_mask_cmp_ps_mask(mask, a, b, _CMP_GT_OQ);
-  }
   static std::uint32_t
   bits(Mask mask)
   {

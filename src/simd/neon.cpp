@@ -40,11 +40,6 @@ struct Neon {
   {
     return vandq_u32(mask, vcltq_f32(a, b));
   }
-  static Mask
-  greaterAnd(Mask mask, Float a, Float b)
-  {
-    return vandq_u32(mask, vcgtq_f32(a, b));
-  }
   static std::uint32_t
   bits(Mask mask)
   {

@@ -9,8 +9,8 @@
 //
 // V offers: Float, which compilers give the operators of a float; Unaligned, the same
 // wherever floats may stand; Mask; WIDTH; broadcast, fma(a, b, c) = a * b + c; less(a, b),
-// lessAnd(mask, a, b), greaterAnd(mask, a, b); store(mask, words, group), which puts WIDTH
-// bits at bit group * WIDTH of the little-endian words.
+// lessAnd(mask, a, b), as AVX-512 has it in one; store(mask, words, group), which puts
+// WIDTH bits at bit group * WIDTH of the little-endian words.
 //
 // Products and sums are contracted here on purpose: these tests only decide what is
 // certain, and leave the rest to the exact formulas.
@@ -86,9 +86,9 @@ edgeTestSimd(const EdgeTestInput& in,
       const Float defect =
           V::fma(difference, difference, V::fma(minus_two_tau2, sum, tau4));
       auto is_possible = V::less(defect, possible_defect);
-      is_possible = V::greaterAnd(is_possible, sum, possible_sum);
+      is_possible = V::lessAnd(is_possible, possible_sum, sum);
       auto is_sure = V::lessAnd(is_possible, defect, sure_defect);
-      is_sure = V::greaterAnd(is_sure, sum, sure_sum);
+      is_sure = V::lessAnd(is_sure, sure_sum, sum);
       V::store(is_possible, possible + row, group);
       V::store(is_sure, sure + row, group);
     }
