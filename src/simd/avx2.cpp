@@ -3,8 +3,7 @@
 
 // AVX2, FMA and POPCNT (Haswell and Zen on).
 
-#include "simd/simd_kernels.h"
-#include "simd/surface_kernels.h"
+#include "simd/kernel_table.h"
 
 #include <immintrin.h>
 
@@ -118,45 +117,24 @@ struct Avx2 {
     reinterpret_cast<unsigned char*>(words)[group] =
         static_cast<unsigned char>(_mm256_movemask_ps(mask));
   }
-};
-
-void
-commonNeighbours(const std::uint64_t* row,
-                 const std::uint64_t* matrix,
-                 std::size_t stride,
-                 std::size_t words,
-                 const std::uint32_t* rows,
-                 std::size_t count,
-                 std::uint32_t* common)
-{
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::uint64_t* other = matrix + rows[n] * stride;
+  static std::uint64_t
+  commonBits(const std::uint64_t* a, const std::uint64_t* b, std::size_t words)
+  {
     std::uint64_t even = 0, odd = 0;
     for (std::size_t w = 0; w < words; w += 4) {
-      even += static_cast<std::uint64_t>(_mm_popcnt_u64(row[w] & other[w])) +
-              static_cast<std::uint64_t>(_mm_popcnt_u64(row[w + 1] & other[w + 1]));
-      odd += static_cast<std::uint64_t>(_mm_popcnt_u64(row[w + 2] & other[w + 2])) +
-             static_cast<std::uint64_t>(_mm_popcnt_u64(row[w + 3] & other[w + 3]));
+      even += static_cast<std::uint64_t>(_mm_popcnt_u64(a[w] & b[w])) +
+              static_cast<std::uint64_t>(_mm_popcnt_u64(a[w + 1] & b[w + 1]));
+      odd += static_cast<std::uint64_t>(_mm_popcnt_u64(a[w + 2] & b[w + 2])) +
+             static_cast<std::uint64_t>(_mm_popcnt_u64(a[w + 3] & b[w + 3]));
     }
-    common[n] = static_cast<std::uint32_t>(even + odd);
+    return even + odd;
   }
-}
+};
 
 } // namespace
 
 extern const Kernels AVX2_KERNELS;
-const Kernels AVX2_KERNELS = {"avx2",
-                              &edgeTestSimd<Avx2>,
-                              &transposeBits,
-                              &commonNeighbours,
-                              &countBitsIn,
-                              &intersectRows,
-                              &residualTestSimd<Avx2>,
-                              &featureCandidatesSimd<Avx2>,
-                              &collectNeighborsSimd<Avx2>,
-                              &momentSumsSimd<Avx2>,
-                              &pairHistogramSimd<Avx2>,
-                              &weightedRowSumSimd<Avx2>};
+constexpr Kernels AVX2_KERNELS = simdKernels<Avx2>("avx2", &commonNeighboursSimd<Avx2>);
 
 } // namespace cpu
 } // namespace pcl_flashreg

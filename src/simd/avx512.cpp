@@ -3,8 +3,7 @@
 
 // AVX-512 F, BW, DQ, VL and VPOPCNTDQ (Ice Lake and Zen 4 on).
 
-#include "simd/simd_kernels.h"
-#include "simd/surface_kernels.h"
+#include "simd/kernel_table.h"
 
 #include <immintrin.h>
 
@@ -154,18 +153,7 @@ commonNeighbours(const std::uint64_t* row,
 } // namespace
 
 extern const Kernels AVX512_KERNELS;
-const Kernels AVX512_KERNELS = {"avx512",
-                                &edgeTestSimd<Avx512>,
-                                &transposeBits,
-                                &commonNeighbours,
-                                &countBitsIn,
-                                &intersectRows,
-                                &residualTestSimd<Avx512>,
-                                &featureCandidatesSimd<Avx512>,
-                                &collectNeighborsSimd<Avx512>,
-                                &momentSumsSimd<Avx512>,
-                                &pairHistogramSimd<Avx512>,
-                                &weightedRowSumSimd<Avx512>};
+constexpr Kernels AVX512_KERNELS = simdKernels<Avx512>("avx512", &commonNeighbours);
 
 } // namespace cpu
 } // namespace pcl_flashreg

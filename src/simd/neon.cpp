@@ -3,8 +3,7 @@
 
 // NEON, which every AArch64 processor has.
 
-#include "simd/simd_kernels.h"
-#include "simd/surface_kernels.h"
+#include "simd/kernel_table.h"
 
 #include <arm_neon.h>
 
@@ -106,44 +105,23 @@ struct Neon {
     const std::uint64_t lanes = static_cast<std::uint64_t>(bits(mask)) << (4 * group);
     *words = group == 0 ? lanes : *words | lanes;
   }
-};
-
-void
-commonNeighbours(const std::uint64_t* row,
-                 const std::uint64_t* matrix,
-                 std::size_t stride,
-                 std::size_t words,
-                 const std::uint32_t* rows,
-                 std::size_t count,
-                 std::uint32_t* common)
-{
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::uint64_t* other = matrix + rows[n] * stride;
+  static std::uint64_t
+  commonBits(const std::uint64_t* a, const std::uint64_t* b, std::size_t words)
+  {
     uint64x2_t sum = vdupq_n_u64(0);
     for (std::size_t w = 0; w < words; w += 2) {
-      const uint64x2_t both = vandq_u64(vld1q_u64(row + w), vld1q_u64(other + w));
-      const uint8x16_t bytes = vcntq_u8(vreinterpretq_u8_u64(both));
+      const uint64x2_t common = vandq_u64(vld1q_u64(a + w), vld1q_u64(b + w));
+      const uint8x16_t bytes = vcntq_u8(vreinterpretq_u8_u64(common));
       sum = vpadalq_u32(sum, vpaddlq_u16(vpaddlq_u8(bytes)));
     }
-    common[n] = static_cast<std::uint32_t>(vaddvq_u64(sum));
+    return vaddvq_u64(sum);
   }
-}
+};
 
 } // namespace
 
 extern const Kernels NEON_KERNELS;
-const Kernels NEON_KERNELS = {"neon",
-                              &edgeTestSimd<Neon>,
-                              &transposeBits,
-                              &commonNeighbours,
-                              &countBitsIn,
-                              &intersectRows,
-                              &residualTestSimd<Neon>,
-                              &featureCandidatesSimd<Neon>,
-                              &collectNeighborsSimd<Neon>,
-                              &momentSumsSimd<Neon>,
-                              &pairHistogramSimd<Neon>,
-                              &weightedRowSumSimd<Neon>};
+constexpr Kernels NEON_KERNELS = simdKernels<Neon>("neon", &commonNeighboursSimd<Neon>);
 
 } // namespace cpu
 } // namespace pcl_flashreg

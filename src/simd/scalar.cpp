@@ -13,6 +13,15 @@ namespace pcl_flashreg {
 namespace cpu {
 namespace {
 
+inline std::uint64_t
+countBits(std::uint64_t x)
+{
+  x -= (x >> 1) & 0x5555555555555555ull;
+  x = (x & 0x3333333333333333ull) + ((x >> 2) & 0x3333333333333333ull);
+  x = (x + (x >> 4)) & 0x0F0F0F0F0F0F0F0Full;
+  return (x * 0x0101010101010101ull) >> 56;
+}
+
 /** \brief One float at a time. */
 struct OneLane {
   using Float = float;
@@ -78,6 +87,14 @@ struct OneLane {
   {
     *out = static_cast<std::int32_t>(a);
   }
+  static std::uint64_t
+  commonBits(const std::uint64_t* a, const std::uint64_t* b, std::size_t words)
+  {
+    std::uint64_t sum = 0;
+    for (std::size_t w = 0; w < words; ++w)
+      sum += countBits(a[w] & b[w]);
+    return sum;
+  }
 };
 
 void
@@ -98,33 +115,6 @@ edgeTest(const EdgeTestInput& in,
       edges |= static_cast<std::uint64_t>(edge) << c;
     }
     sure[r] = possible[r] = edges;
-  }
-}
-
-inline std::uint64_t
-countBits(std::uint64_t x)
-{
-  x -= (x >> 1) & 0x5555555555555555ull;
-  x = (x & 0x3333333333333333ull) + ((x >> 2) & 0x3333333333333333ull);
-  x = (x + (x >> 4)) & 0x0F0F0F0F0F0F0F0Full;
-  return (x * 0x0101010101010101ull) >> 56;
-}
-
-void
-commonNeighbours(const std::uint64_t* row,
-                 const std::uint64_t* matrix,
-                 std::size_t stride,
-                 std::size_t words,
-                 const std::uint32_t* rows,
-                 std::size_t count,
-                 std::uint32_t* common)
-{
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::uint64_t* other = matrix + rows[n] * stride;
-    std::uint64_t sum = 0;
-    for (std::size_t w = 0; w < words; ++w)
-      sum += countBits(row[w] & other[w]);
-    common[n] = static_cast<std::uint32_t>(sum);
   }
 }
 
@@ -182,7 +172,7 @@ extern const Kernels SCALAR_KERNELS;
 const Kernels SCALAR_KERNELS = {"scalar",
                                 &edgeTest,
                                 &transposeBits,
-                                &commonNeighbours,
+                                &commonNeighboursSimd<OneLane>,
                                 &countBitsIn,
                                 &intersectRows,
                                 &residualTest,

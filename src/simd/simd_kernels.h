@@ -176,6 +176,22 @@ featureCandidatesSimd(const FeatureBlock& in,
     }
 }
 
+/** \brief Row by row; V offers commonBits(a, b, words), how many bits two rows share. */
+template <typename V>
+void
+commonNeighboursSimd(const std::uint64_t* row,
+                     const std::uint64_t* matrix,
+                     std::size_t stride,
+                     std::size_t words,
+                     const std::uint32_t* rows,
+                     std::size_t count,
+                     std::uint32_t* common)
+{
+  for (std::size_t n = 0; n < count; ++n)
+    common[n] = static_cast<std::uint32_t>(
+        V::commonBits(row, matrix + rows[n] * stride, words));
+}
+
 // The compiler makes one instruction of a population count where the file's flags allow.
 
 inline std::size_t
