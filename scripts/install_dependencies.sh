@@ -5,7 +5,8 @@
 #   scripts/install_dependencies.sh --tests    for the tests and benchmarks too
 set -euo pipefail
 
-needed=(cmake g++ make libeigen3-dev libpcl-dev libpng-dev libcli11-dev nlohmann-json3-dev)
+needed=(cmake g++ make libeigen3-dev libpcl-dev libcairo2-dev libcli11-dev
+  nlohmann-json3-dev)
 # Without these some tests are skipped, and say so; not every release has them.
 optional=()
 

@@ -374,6 +374,10 @@ TEST_F(CliTest, snapshotIsAPng)
   const std::string bytes = read("pair.png");
   ASSERT_GT(bytes.size(), 10000u);
   EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  const std::string width_and_height("\0\0\x07\x0c\0\0\x03\x84", 8);
+  EXPECT_EQ(bytes.substr(16, 8), width_and_height);
+  ASSERT_EQ(align("source.pcd target.pcd --quiet --snapshot again.png").status, 0);
+  EXPECT_EQ(read("again.png"), bytes);
 }
 
 TEST_F(CliTest, helpAndVersion)

@@ -53,6 +53,13 @@ loadViewer()
       loadFunction("pcl_flashreg_viewer.so", "pcl_flashreg_show_clouds"));
 }
 
+DrawSnapshot
+loadSnapshot()
+{
+  return reinterpret_cast<DrawSnapshot>(
+      loadFunction("pcl_flashreg_snapshot.so", "pcl_flashreg_draw_snapshot"));
+}
+
 ComputeFpfh
 loadPclFeatures()
 {

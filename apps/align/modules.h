@@ -6,14 +6,16 @@
 #include <pcl_flashreg/fpfh_features.h>
 
 #include <cstddef>
+#include <string>
 
-// Parts of the program that are loaded when they are asked for: the libraries that they
-// bring take longer to load than most runs take in all.
+// Parts of the program that are loaded when they are asked for: PCL's and VTK's
+// libraries take longer to load than most runs take in all, Cairo's as long as the rest
+// of the program.
 
 namespace pcl_flashreg::align {
 
-/** \brief What the viewer shows: plain arrays, x, y, z of one point after the other. */
-struct ViewerClouds {
+/** \brief What is shown or drawn: plain arrays, x, y, z of a point after the other. */
+struct ShownClouds {
   const double* source;
   /** \brief The source under the pose. */
   const double* moved_source;
@@ -23,7 +25,10 @@ struct ViewerClouds {
 };
 
 /** \brief Shows both clouds before and after in a window until it is closed. */
-using ShowClouds = void (*)(const ViewerClouds& clouds);
+using ShowClouds = void (*)(const ShownClouds& clouds);
+
+/** \brief Draws both clouds before and after into the bytes of a PNG file. */
+using DrawSnapshot = void (*)(const ShownClouds& clouds, std::string& png);
 
 /** \brief computeFpfhWithPcl() into `result`. */
 using ComputeFpfh = void (*)(const pcl::PointCloud<pcl::PointXYZ>& cloud,
@@ -37,6 +42,10 @@ ShowClouds
 loadViewer();
 
 /** \throws std::runtime_error if the module is not where the program looks for it */
+DrawSnapshot
+loadSnapshot();
+
+/** \throws std::runtime_error if the module is not where the program looks for it */
 ComputeFpfh
 loadPclFeatures();
 
@@ -45,7 +54,10 @@ loadPclFeatures();
 /** \brief What the modules offer. */
 extern "C" {
 void
-pcl_flashreg_show_clouds(const pcl_flashreg::align::ViewerClouds& clouds);
+pcl_flashreg_show_clouds(const pcl_flashreg::align::ShownClouds& clouds);
+void
+pcl_flashreg_draw_snapshot(const pcl_flashreg::align::ShownClouds& clouds,
+                           std::string& png);
 void
 pcl_flashreg_compute_fpfh(const pcl::PointCloud<pcl::PointXYZ>& cloud,
                           double resolution,

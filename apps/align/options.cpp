@@ -116,7 +116,7 @@ check(const Options& options)
   if ((!options.snapshot.empty() || options.view) && options.target.empty())
     throw UsageError("--snapshot and --view need the source and the target cloud");
   if (!options.snapshot.empty() && !kSnapshotBuiltIn)
-    throw UsageError("--snapshot is not built into this program (no libpng was found "
+    throw UsageError("--snapshot is not built into this program (Cairo was not found "
                      "when it was built)");
   if (options.view && !kViewerBuiltIn)
     throw UsageError("--view is not built into this program (no PCL visualization was "

@@ -55,26 +55,6 @@ Canvas::drawDisc(float x, float y, float radius, float depth, Color color)
 }
 
 void
-Canvas::drawLine(float x0, float y0, float x1, float y1, float thickness, Color color)
-{
-  const float r = 0.5f * thickness;
-  const Range rows(0.5f * (y0 + y1), 0.5f * std::abs(y1 - y0) + r, height_);
-  const Range columns(0.5f * (x0 + x1), 0.5f * std::abs(x1 - x0) + r, width_);
-  const float length2 = std::max(1e-6f, (x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0));
-  for (int row = rows.begin; row < rows.end; ++row)
-    for (int column = columns.begin; column < columns.end; ++column) {
-      const float px = static_cast<float>(column) - x0;
-      const float py = static_cast<float>(row) - y0;
-      const float along =
-          std::clamp((px * (x1 - x0) + py * (y1 - y0)) / length2, 0.0f, 1.0f);
-      const float dx = px - along * (x1 - x0);
-      const float dy = py - along * (y1 - y0);
-      if (dx * dx + dy * dy <= r * r)
-        colors_[at(column, row)] = color;
-    }
-}
-
-void
 Canvas::shadeByDepth(int radius, float strength)
 {
   const int offsets[8][2] = {{radius, 0},
@@ -128,15 +108,6 @@ Canvas::halved() const
                                      mean(a.blue, b.blue, c.blue, d.blue)};
     }
   return half;
-}
-
-void
-Canvas::paste(const Canvas& other, int x)
-{
-  for (int row = 0; row < std::min(height_, other.height_); ++row)
-    std::copy_n(other.colors_.begin() + static_cast<std::ptrdiff_t>(other.at(0, row)),
-                std::min(other.width_, width_ - x),
-                colors_.begin() + static_cast<std::ptrdiff_t>(at(x, row)));
 }
 
 } // namespace pcl_flashreg::align

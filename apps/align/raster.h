@@ -44,10 +44,6 @@ public:
   void
   drawDisc(float x, float y, float radius, float depth, Color color);
 
-  /** \brief A line with round ends on top of everything. */
-  void
-  drawLine(float x0, float y0, float x1, float y1, float thickness, Color color);
-
   /** \brief Darkens pixels next to which something is nearer, so that the shapes of
    * clouds without normals can be seen (eye-dome lighting).
    * \param[in] radius how far the neighbours are looked for, in pixels
@@ -59,10 +55,6 @@ public:
   /** \brief Half the size: every pixel the mean of four. */
   Canvas
   halved() const;
-
-  /** \brief Puts another canvas into this one, its left edge at column x. */
-  void
-  paste(const Canvas& other, int x);
 
 private:
   std::size_t

@@ -42,7 +42,7 @@ addHalf(pcl::visualization::PCLVisualizer& viewer,
 } // namespace pcl_flashreg::align
 
 void
-pcl_flashreg_show_clouds(const pcl_flashreg::align::ViewerClouds& clouds)
+pcl_flashreg_show_clouds(const pcl_flashreg::align::ShownClouds& clouds)
 {
   using namespace pcl_flashreg::align;
   using Points = Eigen::Map<const Eigen::Matrix3Xd>;
