@@ -3,8 +3,9 @@
 # Copyright (c) the pcl_flashreg authors
 """Fits the coefficients of src/judgement/confidence.cpp to rows of pcl_flashreg_evaluate.
 
-Reads CSV files of the methods flashreg_fast, flashreg and flashreg_no_viewpoint. Three logistic regressions: correspondences alone, clouds with viewpoints, clouds
-without. Cross-validated by scene: a pair is judged by coefficients that no pair with a
+Reads CSV files of the methods flashreg_fast, flashreg, flashreg_source_viewpoint and
+flashreg_no_viewpoint. Four logistic regressions: correspondences alone, clouds with both
+viewpoints, with one, without. Cross-validated by scene: a pair is judged by coefficients that no pair with a
 cloud of its source's scene had a part in. Needs numpy; --plot also matplotlib.
 
     scripts/fit_confidence.py correspondences.csv clouds.csv clouds_without_viewpoints.csv
@@ -57,6 +58,7 @@ def limit_by_rival(row):
 MODELS = {
     "correspondences": (features_of_correspondences, limit_by_rival),
     "clouds with viewpoints": (features_of_clouds, None),
+    "clouds with one viewpoint": (features_of_clouds, None),
     "clouds without viewpoints": (features_without_viewpoints, None),
 }
 
@@ -64,13 +66,16 @@ MODELS = {
 def model_of(row):
     if not row["has_clouds"]:
         return "correspondences"
-    known = "with" if row["has_viewpoints"] else "without"
-    return "clouds %s viewpoints" % known
+    if not row["has_viewpoints"]:
+        return "clouds without viewpoints"
+    one = row["method"] == METHOD_OF["clouds with one viewpoint"]
+    return "clouds with one viewpoint" if one else "clouds with viewpoints"
 
 
 METHOD_OF = {
     "correspondences": "flashreg_fast",
     "clouds with viewpoints": "flashreg",
+    "clouds with one viewpoint": "flashreg_source_viewpoint",
     "clouds without viewpoints": "flashreg_no_viewpoint",
 }
 

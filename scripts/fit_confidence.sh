@@ -25,7 +25,7 @@ evaluate() {
   rm -f "$out/$name.csv" "$out/$name.times.csv"
   pcl_flashreg_evaluate "$list" --root "$data" "${@/#/--dataset=}" --leaf "$leaf" \
     --max-rotation "$rotation" --max-translation "$translation" \
-    --method flashreg_fast,flashreg,flashreg_no_viewpoint --csv "$out/$name.csv"
+    --method flashreg_fast,flashreg,flashreg_source_viewpoint,flashreg_no_viewpoint --csv "$out/$name.csv"
 }
 
 evaluate indoor "$data/pairs.tsv" 0.05 15 0.3 3DMatch 3DLoMatch 3DMatch_raw

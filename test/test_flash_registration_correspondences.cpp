@@ -125,6 +125,48 @@ TEST_F(GivenCorrespondences, WithTheSmallestDistanceAreKept)
             static_cast<std::size_t>(size - right));
 }
 
+TEST(CorrespondencesOfClouds, AreJudgedByTheClouds)
+{
+  Registration registration;
+  Cloud output;
+  const FpfhCloud from = computeFpfh(*room().source, {}, room_resolution);
+  const FpfhCloud to = computeFpfh(*room().target, {}, room_resolution);
+  registration.setInputSource(room().source);
+  registration.setInputTarget(room().target);
+  // Few right ones among many: too few for a verdict of their own.
+  const pcl::CorrespondencesPtr few(new pcl::Correspondences);
+  const auto pose = roomPose();
+  Random random(4);
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < 500; ++i) {
+    const auto s = static_cast<pcl::index_t>(random.next() % room().source->size());
+    auto t = static_cast<pcl::index_t>(random.next() % room().target->size());
+    if (right < 12) {
+      const Eigen::Vector3d there =
+          pose * (*room().source)[s].getVector3fMap().cast<double>();
+      for (std::size_t j = 0; j < room().target->size(); ++j) {
+        const Eigen::Vector3f point = (*room().target)[j].getVector3fMap();
+        if ((point.cast<double>() - there).norm() < 0.02) {
+          t = static_cast<pcl::index_t>(j);
+          ++right;
+          break;
+        }
+      }
+    }
+    few->emplace_back(s, t, 0.0f);
+  }
+  registration.setCorrespondences(few);
+  registration.setResolution(room_resolution);
+  registration.align(output);
+  EXPECT_TRUE(registration.hasConverged()) << registration.getConfidence();
+  EXPECT_TRUE(registration.getResult().evidence.has_clouds);
+  expectPose(registration.getFinalTransformation(), pose);
+
+  registration.setCloudCheck(false);
+  registration.align(output);
+  EXPECT_FALSE(registration.hasConverged());
+}
+
 TEST_F(Guess, IsScoredAsOneMoreHypothesis)
 {
   const Silence silence;

@@ -88,3 +88,78 @@ TYPED_TEST(DropIn, AlignsTheRoom)
   EXPECT_LT(outcome.inliers, object.points->size());
   EXPECT_LT(outcome.fitness, leaf * leaf);
 }
+
+namespace {
+
+/** \brief An object of 15 cm, two samples of it that lack other parts. */
+struct ObjectPair {
+  Cloud::Ptr source{new Cloud}, target{new Cloud};
+  Eigen::Isometry3d T_target_source = Eigen::Isometry3d::Identity();
+
+  ObjectPair()
+  {
+    const made::RoomPairXYZ room(12, 3);
+    constexpr float scale = 0.05f;
+    for (const auto& point : *room.source) {
+      const Eigen::Vector3d there =
+          room.T_target_source * point.getVector3fMap().cast<double>();
+      source->push_back(made::RoomPairXYZ::toPoint<PointT>(scale * there));
+    }
+    for (const auto& point : *room.target)
+      target->push_back(made::RoomPairXYZ::toPoint<PointT>(
+          scale * point.getVector3fMap().cast<double>()));
+    T_target_source.rotate(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()));
+    T_target_source.pretranslate(Eigen::Vector3d(-100, 0, 0));
+    pcl::transformPointCloud(
+        *source, *source, Eigen::Matrix4d(T_target_source.inverse().matrix()));
+  }
+};
+
+/** \brief With normals from a third of the object, and histograms as wide. */
+detail::Fpfh33::Ptr
+describeWidely(const Cloud::Ptr& cloud)
+{
+  const auto normals = detail::estimateNormals(cloud, 0.05, 1);
+  return detail::estimateFpfh(cloud, normals, 0.05, 1);
+}
+
+} // namespace
+
+/** \brief A program for pcl::SampleConsensusInitialAlignment: within its distance of 0.1
+ * every pose has all inliers, so that only the clouds can tell which is right. */
+TEST(SacIa, AlignsAnObjectOfWhichEveryPoseHasAllInliers)
+{
+  const ObjectPair pair;
+  using Align = FlashRegistration<PointT, PointT, FeatureT>;
+  Align align;
+  align.setMinSampleDistance(0.05f);
+  align.setMaxCorrespondenceDistance(0.1);
+  align.setMaximumIterations(1000);
+  align.setNumberOfSamples(3);
+  align.setErrorFunction(Align::ErrorFunctorPtr(new Align::TruncatedError(0.01f)));
+  align.setInputSource(pair.source);
+  align.setInputTarget(pair.target);
+  align.setSourceFeatures(describeWidely(pair.source));
+  align.setTargetFeatures(describeWidely(pair.target));
+  Cloud aligned;
+  align.align(aligned);
+  EXPECT_EQ(aligned.size(), pair.source->size());
+  EXPECT_EQ(align.getInliers().size(), pair.source->size());
+  EXPECT_LT(align.getFitnessScore(), 0.0005);
+  EXPECT_LT(made::rotationError(align.getFinalTransformation(), pair.T_target_source),
+            5);
+  double largest = 0;
+  for (std::size_t i = 0; i < aligned.size(); ++i) {
+    const Eigen::Vector3d there =
+        pair.T_target_source * (*pair.source)[i].getVector3fMap().cast<double>();
+    largest =
+        std::max(largest, (aligned[i].getVector3fMap().cast<double>() - there).norm());
+  }
+  EXPECT_LT(largest, 0.015);
+  align.setCloudCheck(false);
+  align.align(aligned);
+  EXPECT_GT(made::rotationError(align.getFinalTransformation(), pair.T_target_source), 5)
+      << "the test needs a pair that correspondences alone get wrong";
+  EXPECT_FLOAT_EQ(align.getMinSampleDistance(), 0.05f);
+  EXPECT_TRUE(align.getErrorFunction());
+}

@@ -3,6 +3,8 @@
 
 // Descriptors, given and computed, as the source of correspondences.
 
+#include <pcl/common/io.h>
+
 #include <set>
 
 #include "flash_registration_fixture.h"
@@ -74,6 +76,57 @@ TEST_F(GivenFeatures, AreMatched)
     const auto there = (*target)[inlier.index_match].getVector3fMap().cast<double>();
     EXPECT_LT((moved - there).norm(), 2 * room_resolution + 1e-5);
   }
+}
+
+TEST_F(GivenFeatures, AreJudgedByTheClouds)
+{
+  registration.setResolution(room_resolution);
+  registration.align(output);
+  expectFound();
+  const Evidence asked = registration.getResult().evidence;
+  EXPECT_TRUE(asked.has_clouds);
+  EXPECT_TRUE(asked.has_viewpoints);
+  EXPECT_GT(asked.agreement.matched, 0.5);
+
+  registration.setCloudCheck(false);
+  registration.align(output);
+  EXPECT_FALSE(registration.getResult().evidence.has_clouds);
+}
+
+TEST_F(GivenFeatures, ComeWithNormalsWhereThePointsHaveThem)
+{
+  using PointNormal = pcl::PointNormal;
+  FlashRegistration<PointNormal, PointNormal> other;
+  const auto with_normals = [](const Cloud& points, const FpfhCloud& fpfh) {
+    pcl::PointCloud<PointNormal>::Ptr cloud(new pcl::PointCloud<PointNormal>);
+    pcl::concatenateFields(points, *fpfh.normals, *cloud);
+    cloud->sensor_origin_ = points.sensor_origin_;
+    return cloud;
+  };
+  const FpfhCloud from = computeFpfh(*room().source, {}, room_resolution);
+  const FpfhCloud to = computeFpfh(*room().target, {}, room_resolution);
+  const auto source_points = with_normals(*source, from);
+  const auto target_points = with_normals(*target, to);
+  other.setInputSource(source_points);
+  other.setInputTarget(target_points);
+  other.setSourceFeatures(source_features);
+  other.setTargetFeatures(target_features);
+  other.setResolution(room_resolution);
+  pcl::PointCloud<PointNormal> aligned;
+  other.align(aligned);
+  EXPECT_TRUE(other.hasConverged());
+  const double matched = other.getResult().evidence.agreement.matched;
+  EXPECT_GT(matched, 0.5);
+
+  // Normals that lie in the surfaces match nowhere; those that nobody has set are computed.
+  for (auto& point : *source_points)
+    point.getNormalVector3fMap() = point.getNormalVector3fMap().unitOrthogonal().eval();
+  other.align(aligned);
+  EXPECT_LT(other.getResult().evidence.agreement.matched, 0.5 * matched);
+  for (auto& point : *source_points)
+    point.getNormalVector3fMap().setZero();
+  other.align(aligned);
+  EXPECT_GT(other.getResult().evidence.agreement.matched, 0.9 * matched);
 }
 
 TEST_F(GivenFeatures, TakeTheResolutionFromTheSpacing)

@@ -146,7 +146,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         RealCloud{"3dmatch/7-scenes-redkitchen/cloud_bin_0.pcd", 0.05},
         RealCloud{"3dmatch/sun3d-hotel_umd-maryland_hotel3/cloud_bin_1.pcd", 0.05},
-        RealCloud{"3dmatch/sun3d-home_at-home_at_scan1_2013_jan_1/cloud_bin_0.pcd", 0.05},
+        RealCloud{"3dmatch/sun3d-home_at-home_at_scan1_2013_jan_1/cloud_bin_0.pcd",
+                  0.05},
         RealCloud{"3dmatch_raw_redkitchen/cloud_bin_0.pcd", 0.05},
         RealCloud{"turboreg_kitti_demo/000_pts_src.ply", 1.0},
         RealCloud{"turboreg_kitti_demo/010_pts_dst.ply", 1.0},

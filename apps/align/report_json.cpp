@@ -70,6 +70,7 @@ evidenceOf(const Evidence& evidence)
                {"thickness", evidence.thickness}};
   if (evidence.has_clouds) {
     json["viewpoints"] = evidence.has_viewpoints;
+    json["one_viewpoint"] = evidence.one_viewpoint;
     json["matched"] = evidence.agreement.matched;
     json["contradicted"] = evidence.agreement.contradicted;
     json["lead"] = evidence.lead;

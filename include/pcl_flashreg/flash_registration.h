@@ -10,6 +10,7 @@
 #include <pcl_flashreg/lazy_kdtree.h>
 
 #include <pcl/point_representation.h>
+#include <pcl/registration/ia_ransac.h>
 #include <pcl/registration/registration.h>
 
 #include <optional>
@@ -91,6 +92,16 @@ public:
   using FeatureCloudConstPtr = typename FeatureCloud::ConstPtr;
   using FeatureRepresentationConstPtr =
       typename pcl::PointRepresentation<FeatureT>::ConstPtr;
+
+  /** \name Of pcl::SampleConsensusInitialAlignment, for programs that name them */
+  /**@{*/
+  using SacIa =
+      pcl::SampleConsensusInitialAlignment<PointSource, PointTarget, FeatureT>;
+  using ErrorFunctor = typename SacIa::ErrorFunctor;
+  using HuberPenalty = typename SacIa::HuberPenalty;
+  using TruncatedError = typename SacIa::TruncatedError;
+  using ErrorFunctorPtr = typename ErrorFunctor::Ptr;
+  /**@}*/
 
   FlashRegistration();
 
@@ -290,6 +301,33 @@ public:
     return nr_samples_;
   }
 
+  /** \brief No effect: how far apart points must be is Parameters::min_length_sum. */
+  void
+  setMinSampleDistance(float min_sample_distance)
+  {
+    min_sample_distance_ = min_sample_distance;
+  }
+
+  float
+  getMinSampleDistance() const
+  {
+    return min_sample_distance_;
+  }
+
+  /** \brief No effect: no pose is judged by the distances of random samples. Takes and
+   * keeps the functors of pcl::SampleConsensusInitialAlignment. */
+  void
+  setErrorFunction(const ErrorFunctorPtr& error_functor)
+  {
+    error_functor_ = error_functor;
+  }
+
+  ErrorFunctorPtr
+  getErrorFunction() const
+  {
+    return error_functor_;
+  }
+
   /** \brief No effect: edge lengths are compared absolutely, by
    * Parameters::length_tolerance. */
   void
@@ -479,6 +517,8 @@ private:
   float inlier_fraction_ = 0;
   int nr_samples_ = 3;
   float similarity_threshold_ = 0.6f;
+  float min_sample_distance_ = 0;
+  ErrorFunctorPtr error_functor_;
 
   detail::CloudSide source_side_;
   detail::CloudSide target_side_;

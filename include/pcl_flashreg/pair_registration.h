@@ -97,7 +97,8 @@ struct Correspondences {
   CorrespondenceView<double>
   view() const
   {
-    return {source.data(), target.data(), size(), ranks.empty() ? nullptr : ranks.data()};
+    return {
+        source.data(), target.data(), size(), ranks.empty() ? nullptr : ranks.data()};
   }
 };
 
@@ -171,7 +172,8 @@ public:
   /** \brief The resolution that align() takes for two clouds where no options say.
    * \throws std::invalid_argument as align() */
   double
-  chooseResolution(const ScanInput<float>& source, const ScanInput<float>& target) const;
+  chooseResolution(const ScanInput<float>& source,
+                   const ScanInput<float>& target) const;
   double
   chooseResolution(const ScanInput<double>& source,
                    const ScanInput<double>& target) const;

@@ -88,8 +88,10 @@ struct Evidence {
 
   /** \brief Whether the clouds were asked: the rest is 0 where not. */
   bool has_clouds = false;
-  /** \brief Whether both viewpoints are known. */
+  /** \brief Whether viewpoints are known, and believed. */
   bool has_viewpoints = false;
+  /** \brief Whether that is so of one cloud alone. */
+  bool one_viewpoint = false;
   CloudAgreement agreement;
   /** \brief By how much the evidence for this pose exceeds that for the best other one,
    * as a logarithm; at most 5, which is also its value where there is no other one. */

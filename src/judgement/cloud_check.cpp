@@ -162,6 +162,7 @@ judge(const SurfacePair& clouds,
   evidence.inliers = poses.front().inlier_count;
   evidence.has_clouds = true;
   evidence.has_viewpoints = with_viewpoints;
+  evidence.one_viewpoint = with_viewpoints && !clouds.oriented();
   evidence.agreement = poses.front().agreement;
   evidence.lead = MAX_LEAD;
   if (poses.size() > 1)
@@ -186,7 +187,7 @@ checkOnClouds(const SurfacePair& clouds,
   if (clouds.source.points.empty() || clouds.target.points.empty() || list.empty())
     return {};
   const double half_side = halfSideOf(clouds.source);
-  if (clouds.oriented())
+  if (clouds.seeing())
     screen(clouds, hypotheses, half_side, list, pool);
 
   std::vector<CheckedPose> checked(list.size());
@@ -198,7 +199,7 @@ checkOnClouds(const SurfacePair& clouds,
         static_cast<int>(inliersOf(problem, result.pose, inlier_distance).size());
   });
   CloudFindings blind = judge(clouds, checked, half_side, false);
-  if (!clouds.oriented())
+  if (!clouds.seeing())
     return blind;
   CloudFindings seeing = judge(clouds, std::move(checked), half_side, true);
   const double enough = std::max(BELIEVED_BLINDLY, confidenceOf(seeing.evidence));

@@ -43,6 +43,15 @@ fromClouds(const Evidence& e)
 }
 
 double
+fromCloudsWithOneViewpoint(const Evidence& e)
+{
+  return logistic(-11.58 - 0.77 * std::log(e.agreement.matched + 0.01) -
+                  1.87 * std::log(e.agreement.contradicted + 0.01) +
+                  2.67 * std::log(e.inliers + 5) + 2.17 * e.lead +
+                  2.12 * std::log(e.stiffness + 0.001));
+}
+
+double
 fromCloudsWithoutViewpoints(const Evidence& e)
 {
   return logistic(-10.48 - 0.74 * std::log(e.agreement.matched + 0.01) +
@@ -57,8 +66,10 @@ confidenceOf(const Evidence& evidence)
 {
   if (!evidence.has_clouds)
     return fromCorrespondences(evidence);
-  return evidence.has_viewpoints ? fromClouds(evidence)
-                                 : fromCloudsWithoutViewpoints(evidence);
+  if (!evidence.has_viewpoints)
+    return fromCloudsWithoutViewpoints(evidence);
+  return evidence.one_viewpoint ? fromCloudsWithOneViewpoint(evidence)
+                                : fromClouds(evidence);
 }
 
 } // namespace pcl_flashreg

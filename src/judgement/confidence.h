@@ -8,8 +8,8 @@
 namespace pcl_flashreg {
 
 /** \brief Result::confidence: a logistic regression on the evidence, with one set of
- * coefficients for correspondences alone, one for clouds with viewpoints and one for
- * clouds without. scripts/fit_confidence.py computes them. */
+ * coefficients for correspondences alone, one for clouds with both viewpoints, one for
+ * clouds with one of them and one for clouds without. scripts/fit_confidence.py computes them. */
 double
 confidenceOf(const Evidence& evidence);
 

@@ -37,10 +37,10 @@ check(const char* name, const FeatureView& view)
 
 MutualMatches
 searchFeatures(const FeatureView& queries,
-       const FeatureView& targets,
-       std::size_t k,
-       bool both_ways,
-       ThreadPool& pool)
+               const FeatureView& targets,
+               std::size_t k,
+               bool both_ways,
+               ThreadPool& pool)
 {
   check("queries", queries);
   check("targets", targets);

@@ -25,7 +25,10 @@ timed(double& milliseconds, const Step& step)
   struct Booking {
     const detail::Stopwatch& watch;
     double& milliseconds;
-    ~Booking() { milliseconds += watch.milliseconds(); }
+    ~Booking()
+    {
+      milliseconds += watch.milliseconds();
+    }
   } booking{watch, milliseconds};
   return step();
 }
@@ -61,7 +64,8 @@ checkBothOrNone(const FeatureView& source, const FeatureView& target)
 {
   if ((source.dimension == 0) != (target.dimension == 0))
     throw std::invalid_argument(std::string("descriptors were given of the ") +
-                                (source.dimension == 0 ? "target" : "source") + " alone");
+                                (source.dimension == 0 ? "target" : "source") +
+                                " alone");
 }
 
 } // namespace

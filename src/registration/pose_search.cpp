@@ -93,9 +93,9 @@ PoseSearch::toOriginal(const Pose& T) const
  * of these has less than three inliers. */
 void
 PoseSearch::askClouds(const SurfacePair& clouds,
-                           const Parameters& parameters,
-                           PoseEstimate& estimate,
-                           CloudFindings& findings)
+                      const Parameters& parameters,
+                      PoseEstimate& estimate,
+                      CloudFindings& findings)
 {
   const float limit = parameters.inlier_distance;
   findings = checkOnClouds(
@@ -117,9 +117,9 @@ PoseSearch::askClouds(const SurfacePair& clouds,
 
 void
 PoseSearch::fill(Result& result,
-                      const PoseEstimate& estimate,
-                      const CloudFindings& findings,
-                      const Parameters& parameters) const
+                 const PoseEstimate& estimate,
+                 const CloudFindings& findings,
+                 const Parameters& parameters) const
 {
   result.status = estimate.status;
   result.second_order = estimate.second_order;
@@ -158,7 +158,9 @@ SurfacePair
 PoseSearch::prepareClouds(const JudgingClouds& clouds)
 {
   const auto spacing = static_cast<float>(clouds.spacing);
-  const auto build = [&](const JudgingCloud& cloud, const Vec3& centre, Surface& surface) {
+  const auto build = [&](const JudgingCloud& cloud,
+                         const Vec3& centre,
+                         Surface& surface) {
     std::visit(
         [&](const auto& view) { surface.build(view, centre - cloud.shift, spacing); },
         cloud.view);
@@ -197,9 +199,9 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
   clock.finish(&StageTimings::preparation);
 
   if (problem_.size >= 3) {
-    // Only with viewpoints can the clouds tell which of thousands of poses is right.
+    // Only with a viewpoint can the clouds tell which of thousands of poses is right.
     const bool screen =
-        clouds && clouds->source.viewpoint() && clouds->target.viewpoint();
+        clouds && (clouds->source.viewpoint() || clouds->target.viewpoint());
     PoseEstimate estimate = backend_->run(problem_,
                                           withRivals(parameters, clouds != nullptr),
                                           centred_guess,

@@ -23,7 +23,8 @@ struct JudgingCloud {
   const std::optional<Eigen::Vector3d>&
   viewpoint() const
   {
-    return std::visit([](const auto& v) -> const auto& { return v.viewpoint; }, view);
+    return std::visit(
+        [](const auto& v) -> const auto& { return v.viewpoint; }, view);
   }
 };
 

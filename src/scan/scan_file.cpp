@@ -233,8 +233,8 @@ Scan::load(const std::string& path)
   std::ifstream file(path, std::ios::binary);
   std::ostringstream contents;
   if (!file || std::filesystem::is_directory(path))
-    throw ScanFileError(path + ": cannot be read: " +
-                        (file ? "is a directory" : reasonOf(errno)));
+    throw ScanFileError(
+        path + ": cannot be read: " + (file ? "is a directory" : reasonOf(errno)));
   contents << file.rdbuf();
   try {
     return deserialize(contents.str());

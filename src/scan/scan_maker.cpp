@@ -129,7 +129,7 @@ double
 estimateResolution(const PreparedInput& input)
 {
   return input.features.dimension > 0 ? estimateVoxelSize(input.points)
-                                 : estimateResolution(input.points);
+                                      : estimateResolution(input.points);
 }
 
 Scan

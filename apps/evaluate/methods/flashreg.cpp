@@ -11,7 +11,7 @@ namespace pcl_flashreg::evaluate {
 namespace {
 
 /** \brief What is known of the clouds is told to the estimator. */
-enum class Clouds { Ignored, WithoutViewpoints, WithViewpoints };
+enum class Clouds { Ignored, WithoutViewpoints, WithSourceViewpoint, WithViewpoints };
 
 /** \brief A method's registration, and how it is told to go about. */
 class Flashreg {
@@ -31,12 +31,13 @@ public:
   Answer
   run(const Problem& problem)
   {
-    const Result result = registration_
-                              .align(told(problem.source),
-                                     told(problem.target),
-                                     problem.correspondences.view(),
-                                     options_)
-                              .pose;
+    const Result result =
+        registration_
+            .align(told(problem.source, clouds_ >= Clouds::WithSourceViewpoint),
+                   told(problem.target, clouds_ == Clouds::WithViewpoints),
+                   problem.correspondences.view(),
+                   options_)
+            .pose;
     Answer answer;
     answer.found = result.status == Status::Ok;
     answer.T_target_source = result.T_target_source;
@@ -50,10 +51,10 @@ public:
   }
 
 private:
-  Scan
-  told(const Scan& scan) const
+  static Scan
+  told(const Scan& scan, bool with_viewpoint)
   {
-    return clouds_ == Clouds::WithViewpoints ? scan : scan.withoutViewpoint();
+    return with_viewpoint ? scan : scan.withoutViewpoint();
   }
 
   PairRegistration registration_;
@@ -87,6 +88,10 @@ flashregMethods()
           "this project, the best backend that runs here; clouds are asked where known",
           BackendKind::Auto,
           Clouds::WithViewpoints),
+      entry("flashreg_source_viewpoint",
+            "the same, but nobody knows where the sensor of the target stood",
+            BackendKind::Auto,
+            Clouds::WithSourceViewpoint),
       entry("flashreg_no_viewpoint",
             "the same, but nobody knows where the sensors stood",
             BackendKind::Auto,

@@ -68,6 +68,20 @@ look(const Surface& from,
   return sums;
 }
 
+/** \brief From the sums over the one cloud whose sensor is known, and over the other. */
+CloudAgreement
+seenFromOne(const Sums& seeing,
+            std::size_t seeing_points,
+            const Sums& seen,
+            std::size_t seen_points)
+{
+  // Points of the other cloud that hang in the empty space, over what would fill the view.
+  const double contradicting = seen.contradicted / static_cast<double>(seen.points) *
+                               static_cast<double>(seen_points);
+  return {seeing.matched / static_cast<double>(seeing.points),
+          std::min(1.0, contradicting / static_cast<double>(seeing_points))};
+}
+
 } // namespace
 
 CloudAgreement
@@ -79,9 +93,15 @@ agreementOf(const SurfacePair& clouds, const Pose& pose, const Effort& effort)
       look(clouds.source, clouds.target, forward, clouds.spacing, oriented, effort);
   const Sums back = look(
       clouds.target, clouds.source, inverse(forward), clouds.spacing, oriented, effort);
+  const std::size_t sources = clouds.source.points.size();
+  const std::size_t targets = clouds.target.points.size();
+  if (clouds.seeing() && !oriented)
+    return clouds.source.free_space.known()
+               ? seenFromOne(there, sources, back, targets)
+               : seenFromOne(back, targets, there, sources);
   // Each side counts by the number of its points, however many were looked at.
-  const auto source_points = static_cast<double>(clouds.source.points.size());
-  const auto target_points = static_cast<double>(clouds.target.points.size());
+  const auto source_points = static_cast<double>(sources);
+  const auto target_points = static_cast<double>(targets);
   const auto share = [&](double of_source, double of_target) {
     return (of_source * source_points / static_cast<double>(there.points) +
             of_target * target_points / static_cast<double>(back.points)) /

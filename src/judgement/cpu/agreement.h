@@ -22,6 +22,13 @@ struct SurfacePair {
   {
     return source.free_space.known() && target.free_space.known();
   }
+
+  /** \brief Whether the viewpoint of one is known, so that poses can be contradicted. */
+  bool
+  seeing() const
+  {
+    return source.free_space.known() || target.free_space.known();
+  }
 };
 
 /** \brief How thoroughly to look. */
@@ -32,7 +39,9 @@ struct Effort {
   float tolerance;
 };
 
-/** \param[in] pose T_target_source */
+/** \brief Where one viewpoint alone is known, as that cloud sees it: of the other one (a map,
+ * a model) there may be any amount out of its sight.
+ * \param[in] pose T_target_source */
 CloudAgreement
 agreementOf(const SurfacePair& clouds, const Pose& pose, const Effort& effort);
 
