@@ -162,8 +162,14 @@ TEST(FreeSpace, IsWhatLiesInFrontOfTheSurface)
   EXPECT_FALSE(space.contains({0, 0, 3})) << "behind the wall";
   EXPECT_FALSE(space.contains({0, 0, -1})) << "behind the sensor";
   EXPECT_FALSE(space.contains({3, 0, 1})) << "nothing was seen there";
+  for (const float far : {1e38f, INFINITY, -INFINITY, NAN}) {
+    EXPECT_FALSE(space.contains({far, far, far})) << far;
+    EXPECT_FALSE(space.contains({0, far, 1})) << far;
+  }
   space.clear();
   EXPECT_FALSE(space.contains({0, 0, 1}));
+  space.build(wall, {0, INFINITY, 0}, 0.05f);
+  EXPECT_FALSE(space.known());
 }
 
 TEST(CloudAgreement, TellsAMatchFromAContradiction)
@@ -332,6 +338,16 @@ TEST(Estimator, ManagesWithoutAnyPointInTheClouds)
   clouds.source.normals = normals.data();
   EXPECT_FALSE(
       Estimator().estimate(deceived.view(), {}, {}, &clouds).evidence.has_clouds);
+}
+
+TEST(Estimator, TakesAViewpointThatOverflows)
+{
+  Deceived deceived;
+  CloudPairView<double> clouds = deceived.clouds();
+  clouds.source.viewpoint = Eigen::Vector3d(1e300, 0, -1e300);
+  const Result result = Estimator().estimate(deceived.view(), {}, {}, &clouds);
+  EXPECT_LT(deceived.error(result), 0.3 * SPACING);
+  EXPECT_TRUE(result.evidence.one_viewpoint);
 }
 
 TEST(Estimator, RefusesCloudsThatCannotBe)

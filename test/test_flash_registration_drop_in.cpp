@@ -158,7 +158,8 @@ TEST(SacIa, AlignsAnObjectOfWhichEveryPoseHasAllInliers)
   EXPECT_LT(largest, 0.015);
   align.setCloudCheck(false);
   align.align(aligned);
-  EXPECT_GT(made::rotationError(align.getFinalTransformation(), pair.T_target_source), 5)
+  EXPECT_GT(made::rotationError(align.getFinalTransformation(), pair.T_target_source),
+            5)
       << "the test needs a pair that correspondences alone get wrong";
   EXPECT_FLOAT_EQ(align.getMinSampleDistance(), 0.05f);
   EXPECT_TRUE(align.getErrorFunction());

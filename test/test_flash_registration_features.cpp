@@ -4,6 +4,7 @@
 // Descriptors, given and computed, as the source of correspondences.
 
 #include <pcl/common/io.h>
+#include <pcl/features/shot.h>
 
 #include <set>
 
@@ -91,6 +92,60 @@ TEST_F(GivenFeatures, AreJudgedByTheClouds)
   registration.setCloudCheck(false);
   registration.align(output);
   EXPECT_FALSE(registration.getResult().evidence.has_clouds);
+}
+
+/** \brief Descriptors of the room by PCL's SHOT. */
+pcl::PointCloud<pcl::SHOT352>::Ptr
+shotOf(const FpfhCloud& keypoints)
+{
+  pcl::PointCloud<pcl::SHOT352>::Ptr features(new pcl::PointCloud<pcl::SHOT352>);
+  pcl::SHOTEstimation<PointT, pcl::Normal, pcl::SHOT352> estimation;
+  estimation.setRadiusSearch(5 * room_resolution);
+  estimation.setInputCloud(keypoints.points);
+  estimation.setInputNormals(keypoints.normals);
+  estimation.compute(*features);
+  return features;
+}
+
+/** \brief As a network's: 32 numbers without a meaning. */
+pcl::PointCloud<pcl::Histogram<32>>::Ptr
+first32Of(const FpfhCloud& keypoints)
+{
+  pcl::PointCloud<pcl::Histogram<32>>::Ptr features(
+      new pcl::PointCloud<pcl::Histogram<32>>);
+  features->resize(keypoints.features->size());
+  for (std::size_t i = 0; i < features->size(); ++i)
+    std::copy_n((*keypoints.features)[i].histogram, 32, (*features)[i].histogram);
+  return features;
+}
+
+template <typename FeatureT>
+void
+expectJudged(const typename pcl::PointCloud<FeatureT>::Ptr& source_features,
+             const typename pcl::PointCloud<FeatureT>::Ptr& target_features,
+             const Cloud::Ptr& source,
+             const Cloud::Ptr& target)
+{
+  FlashRegistration<PointT, PointT, FeatureT> registration;
+  registration.setInputSource(source);
+  registration.setInputTarget(target);
+  registration.setSourceFeatures(source_features);
+  registration.setTargetFeatures(target_features);
+  registration.setResolution(room_resolution);
+  Cloud output;
+  registration.align(output);
+  EXPECT_TRUE(registration.hasConverged()) << registration.getErrorMessage();
+  expectPose(registration.getFinalTransformation(), room().T_target_source);
+  EXPECT_TRUE(registration.getResult().evidence.has_clouds);
+  EXPECT_GT(registration.getResult().evidence.agreement.matched, 0.5);
+}
+
+TEST_F(GivenFeatures, AreJudgedWhateverTheirType)
+{
+  const FpfhCloud from = computeFpfh(*room().source, {}, room_resolution);
+  const FpfhCloud to = computeFpfh(*room().target, {}, room_resolution);
+  expectJudged<pcl::SHOT352>(shotOf(from), shotOf(to), source, target);
+  expectJudged<pcl::Histogram<32>>(first32Of(from), first32Of(to), source, target);
 }
 
 TEST_F(GivenFeatures, ComeWithNormalsWhereThePointsHaveThem)

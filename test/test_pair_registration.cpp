@@ -75,8 +75,9 @@ TEST_F(PairRegistrationTest, GoesFromCloudsToAPose)
     const Eigen::Vector3d moved =
         result.pose.T_target_source.toIsometry() *
         result.source.point(static_cast<std::size_t>(match.query));
-    EXPECT_LT((moved - result.target.point(static_cast<std::size_t>(match.match))).norm(),
-              2 * V);
+    EXPECT_LT(
+        (moved - result.target.point(static_cast<std::size_t>(match.match))).norm(),
+        2 * V);
   }
   const PairTimings& timings = result.timings;
   EXPECT_EQ(timings.resolution, 0);
@@ -119,7 +120,8 @@ TEST_F(PairRegistrationTest, TakesTheCoarserOfTwoEstimatedResolutions)
 TEST_F(PairRegistrationTest, AsksTheCloudsOfDescriptorsThatAreGiven)
 {
   // FPFH, but as somebody else's: without a word of normals.
-  const Scan from = registration.makeScan(source, V), to = registration.makeScan(target, V);
+  const Scan from = registration.makeScan(source, V),
+             to = registration.makeScan(target, V);
   const auto keypoints = [](const Scan& scan, const Eigen::Vector3d& viewpoint) {
     ScanInput<float> input;
     input.points.data = scan.points();
@@ -229,7 +231,8 @@ TEST_F(PairRegistrationTest, UsesTheFreeSpaceOfOneSideAlone)
 
 TEST_F(PairRegistrationTest, MatchesAsItIsTold)
 {
-  const Scan from = registration.makeScan(source, V), to = registration.makeScan(target, V);
+  const Scan from = registration.makeScan(source, V),
+             to = registration.makeScan(target, V);
   PairOptions options;
   options.neighbors = 3;
   EXPECT_EQ(registration.match(from, to, options).size(), 3 * from.size());
@@ -288,10 +291,8 @@ TEST_F(PairRegistrationTest, OfLargeCoordinatesIsAsGood)
   std::vector<double> far = room().target;
   for (std::size_t i = 0; i < far.size(); ++i)
     far[i] += away[i % 3];
-  const PairResult result =
-      registration.align(source,
-                         RoomScans::inputOf(far, room().target_viewpoint + away),
-                         atResolution());
+  const PairResult result = registration.align(
+      source, RoomScans::inputOf(far, room().target_viewpoint + away), atResolution());
   RigidTransform back = result.pose.T_target_source;
   back.translation -= away;
   EXPECT_TRUE(result.pose.converged);

@@ -123,8 +123,7 @@ TEST(Scan, HonoursStrideAndIndicesAndSkipsWhatIsNotFinite)
   }
   ScanInput<float> input;
   input.points = {rows.data(), rows.size() / 5, 5, indices.data(), indices.size()};
-  EXPECT_TRUE(
-      same(maker().makeScan(input, V), maker().makeScan(inputOf(picked), V)));
+  EXPECT_TRUE(same(maker().makeScan(input, V), maker().makeScan(inputOf(picked), V)));
 }
 
 TEST(Scan, OfLargeCoordinatesIsShifted)
@@ -134,8 +133,7 @@ TEST(Scan, OfLargeCoordinatesIsShifted)
   for (std::size_t i = 0; i < far.size(); ++i)
     far[i] += away[i % 3];
   const made::Features given = made::scattered(far.size() / 3, 4, 4, 3);
-  ScanInput<double> input =
-      RoomScans::inputOf(far, room().target_viewpoint + away);
+  ScanInput<double> input = RoomScans::inputOf(far, room().target_viewpoint + away);
   input.features = given.view();
   const Scan scan = maker().makeScan(input, V);
   EXPECT_FALSE(scan.shift().isZero(0));
@@ -148,15 +146,15 @@ TEST(Scan, OfLargeCoordinatesIsShifted)
     ASSERT_LT((scan.point(i) - Eigen::Vector3d(&far[3 * i])).norm(), 1e-6);
 
   // Nobody saw that from the origin.
-  EXPECT_FALSE(
-      maker().makeScan(RoomScans::inputOf(far, Eigen::Vector3d::Zero()), V).viewpoint());
+  EXPECT_FALSE(maker()
+                   .makeScan(RoomScans::inputOf(far, Eigen::Vector3d::Zero()), V)
+                   .viewpoint());
 }
 
 TEST(Scan, OfASurfaceHasNoDescriptors)
 {
   const Scan scan = maker().makeScan(room().targetInput(), V);
-  const Scan surface =
-      maker().makeScan(room().targetInput(), V, ScanContent::Surface);
+  const Scan surface = maker().makeScan(room().targetInput(), V, ScanContent::Surface);
   EXPECT_EQ(surface.features().dimension, 0u);
   EXPECT_GE(surface.size(), scan.size());
   std::set<std::vector<float>> points;
@@ -230,7 +228,8 @@ TEST(Scan, TakesDescriptorsOfTheCallers)
     const auto origin = static_cast<std::size_t>(scan.origins()[i]);
     ASSERT_EQ(origin % 2, 0u);
     ASSERT_NE(origin, 10u);
-    ASSERT_TRUE(std::equal(&xyz[3 * origin], &xyz[3 * origin] + 3, scan.points() + 3 * i));
+    ASSERT_TRUE(
+        std::equal(&xyz[3 * origin], &xyz[3 * origin] + 3, scan.points() + 3 * i));
     const float* row = scan.features().data + i * scan.features().stride;
     ASSERT_TRUE(std::equal(row, row + 32, given.values.data() + 40 * origin));
     with_normal += std::isfinite(scan.normals()[3 * i]);
@@ -285,7 +284,8 @@ TEST(Scan, RefusesWhatIsOutOfRange)
       ADD_FAILURE() << word;
     }
     catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
+          << error.what();
     }
   };
   using Input = ScanInput<float>;
@@ -310,9 +310,8 @@ TEST(Scan, RefusesWhatIsOutOfRange)
   expect_refused("features.stride", [&](Input& i, double&, Indices&) {
     i.features = {xyz.data(), i.points.size, 3, 2};
   });
-  expect_refused("viewpoint", [](Input& i, double&, Indices&) {
-    i.viewpoint.y() = NOT_A_NUMBER;
-  });
+  expect_refused("viewpoint",
+                 [](Input& i, double&, Indices&) { i.viewpoint.y() = NOT_A_NUMBER; });
 }
 
 class ScanFile : public testing::Test {
@@ -323,7 +322,10 @@ protected:
   {
     std::filesystem::create_directories(folder_);
   }
-  ~ScanFile() override { std::filesystem::remove_all(folder_); }
+  ~ScanFile() override
+  {
+    std::filesystem::remove_all(folder_);
+  }
 
   std::string
   path(const std::string& name) const
@@ -381,7 +383,9 @@ TEST_F(ScanFile, RegistersLikeTheScanThatWasSaved)
   target.save(path("target.scan"));
   const Result made = maker().align(source, target).pose;
   const Result loaded =
-      maker().align(Scan::load(path("source.scan")), Scan::load(path("target.scan"))).pose;
+      maker()
+          .align(Scan::load(path("source.scan")), Scan::load(path("target.scan")))
+          .pose;
   EXPECT_TRUE(made.converged);
   EXPECT_EQ(made.T_target_source.toMatrix<double>(),
             loaded.T_target_source.toMatrix<double>());
@@ -441,7 +445,8 @@ TEST_F(ScanFile, ErrorsNameThePath)
   };
   const std::string none = path("none.scan");
   EXPECT_EQ(complaint([&] { Scan::load(none); }).find(none + ": "), 0u);
-  EXPECT_EQ(complaint([&] { Scan::load(folder_.string()); }).find(folder_.string()), 0u);
+  EXPECT_EQ(complaint([&] { Scan::load(folder_.string()); }).find(folder_.string()),
+            0u);
   const std::string nowhere = path("no/such/folder.scan");
   EXPECT_EQ(complaint([&] { scan().save(nowhere); }).find(nowhere + ": "), 0u);
   std::ofstream(path("text.scan")) << "text";

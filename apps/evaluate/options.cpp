@@ -86,6 +86,11 @@ declareMethod(CLI::App& app, Options& options)
                  options.max_translation,
                  "Right: unit of the clouds; default 0.3")
       ->check(CLI::PositiveNumber);
+  app.add_option("--features",
+                 options.descriptors_name,
+                 "fpfh; or pcl_fpfh, shot: by PCL's classes, at the same keypoints")
+      ->check(CLI::IsMember(DESCRIPTORS))
+      ->capture_default_str();
   app.add_option("--neighbors", options.neighbors, "Matches for each descriptor")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -179,6 +184,7 @@ parseOptions(int argc, char** argv)
   if (!program::parse(app, argc, argv))
     return std::nullopt;
   options.score = SCORES.at(options.score_name);
+  options.descriptors = DESCRIPTORS.at(options.descriptors_name);
   if (!shard.empty())
     options.shard = parseShard(shard);
   check(options);

@@ -5,6 +5,7 @@
 
 #include "../program/program.h"
 #include "datasets/data_set.h"
+#include "features/descriptors.h"
 
 #include <pcl_flashreg/parameters.h>
 
@@ -34,6 +35,9 @@ struct Options {
   std::vector<std::string> methods = {"flashreg"};
   std::optional<double> leaf, max_rotation, max_translation;
   std::size_t neighbors = 1;
+  Descriptors descriptors = Descriptors::Native;
+  /** \brief As typed. */
+  std::string descriptors_name = "fpfh";
   ScoreMetric score = ScoreMetric::Inliers;
   /** \brief As typed. */
   std::string score_name = "inliers";

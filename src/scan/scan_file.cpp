@@ -102,6 +102,8 @@ checkedHeader(std::string_view bytes)
     throw ScanFileError("has format " + std::to_string(header.version) +
                         ", this version of the library reads format " +
                         std::to_string(VERSION));
+  if (header.flags & ~(HAS_VIEWPOINT | HAS_ORIGINS))
+    throw ScanFileError("is damaged: it claims to hold what no scan has");
   constexpr std::uint64_t MOST_ROWS = std::numeric_limits<std::int32_t>::max();
   constexpr std::uint64_t MOST_VALUES = 1 << 20;
   if (header.size > MOST_ROWS || header.dimension > MOST_VALUES)

@@ -8,6 +8,8 @@
 #include "io/ply.h"
 #include "support/made_correspondences.h"
 
+#include <pcl_flashreg/pair_registration.h>
+
 namespace pcl_flashreg::fuzz {
 namespace {
 
@@ -63,6 +65,36 @@ kittiSeed()
   return bytesOf(values);
 }
 
+/** \brief Without their checksum, which the target puts under what is left of them. */
+std::vector<std::string>
+scanSeeds()
+{
+  made::Random random(4);
+  std::vector<float> xyz, descriptors;
+  for (int i = 0; i < 60; ++i) {
+    const auto x = static_cast<float>(random.uniform(0, 1));
+    const auto y = static_cast<float>(random.uniform(0, 1));
+    xyz.insert(xyz.end(), {x, y, i % 3 ? 0.0f : x});
+    descriptors.insert(descriptors.end(), {x, y, x * y, 1 - x});
+  }
+  ScanInput<float> input;
+  input.points.data = xyz.data();
+  input.points.size = xyz.size() / 3;
+  input.viewpoint_known = true;
+  input.viewpoint = {0.5, 0.5, 3};
+  PairRegistration maker(BackendKind::Cpu, 1);
+  std::vector<std::string> seeds;
+  const auto add = [&](const Scan& scan) {
+    const std::string bytes = scan.serialize();
+    seeds.push_back(bytes.substr(0, bytes.size() - 8));
+  };
+  add(maker.makeScan(input, 0.2));
+  add(maker.makeScan(input, 0.2, ScanContent::Surface).withoutViewpoint());
+  input.features = {descriptors.data(), 60, 4, 4};
+  add(maker.makeScan(input, 0.2));
+  return seeds;
+}
+
 /** \brief Correspondences under a shift, all right ones, or all in one place. */
 std::vector<std::string>
 estimatorSeeds()
@@ -93,6 +125,7 @@ allTargets()
       {"transform",
        readTransform,
        {"1 0 0 0.5\n0 1 0 -2\n0 0 1 3e2\n0 0 0 1\n", "0 -1 0 1 1 0 0 2 0 0 1 3"}},
+      {"scan", readScan, scanSeeds()},
       {"estimate", estimate, estimatorSeeds()}};
 }
 

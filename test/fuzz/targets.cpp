@@ -9,8 +9,9 @@
 #include "io/pcd.h"
 #include "io/ply.h"
 #include "io/transform_io.h"
+#include "support/checksum.h"
 
-#include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/pair_registration.h>
 
 #include <Eigen/LU>
 
@@ -143,6 +144,37 @@ readTransform(std::string_view bytes)
   }
   catch (const io::InputError&) {
   }
+}
+
+void
+readScan(std::string_view bytes)
+{
+  static PairRegistration registration(BackendKind::Cpu, 1);
+  const auto read = [](std::string_view file) {
+    try {
+      const Scan scan = Scan::deserialize(file);
+      const std::string written = scan.serialize();
+      require(Scan::deserialize(written).serialize() == written,
+              "writing and reading changes the bytes");
+      if (scan.empty() || scan.size() > 200)
+        return;
+      PairOptions options;
+      options.neighbors = 2;
+      const PairResult result = registration.align(scan, scan, options);
+      require(result.pose.T_target_source.rotation.allFinite(), "no rotation");
+    }
+    catch (const ScanFileError&) {
+    }
+    catch (const std::invalid_argument&) {
+      // A spacing that nothing can be measured with.
+    }
+  };
+  read(bytes);
+  // Mutations would hardly ever get past the checksum by themselves.
+  std::string sealed(bytes.substr(0, bytes.size() / 8 * 8));
+  const std::uint64_t checksum = checksumOf(sealed.data(), sealed.size());
+  sealed.append(reinterpret_cast<const char*>(&checksum), sizeof(checksum));
+  read(sealed);
 }
 
 void

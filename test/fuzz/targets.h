@@ -30,6 +30,11 @@ readCorrespondences(std::string_view bytes);
 void
 readTransform(std::string_view bytes);
 
+/** \brief Scan::deserialize(), with the bytes' own checksum and with the right one, and a
+ * registration of what comes out. */
+void
+readScan(std::string_view bytes);
+
 /** \brief The estimator on correspondences whose coordinates are the bytes. */
 void
 estimate(std::string_view bytes);

@@ -45,7 +45,8 @@ unpack(std::string_view bytes)
 
 } // namespace
 
-FeatureCache::FeatureCache(std::string folder, double leaf) : folder_(std::move(folder))
+FeatureCache::FeatureCache(std::string folder, double leaf, Descriptors descriptors)
+    : folder_(std::move(folder))
 {
   std::error_code error;
   fs::create_directories(folder_, error);
@@ -53,6 +54,7 @@ FeatureCache::FeatureCache(std::string folder, double leaf) : folder_(std::move(
     throw io::InputError(folder_ + ": cannot be made: " + error.message());
   std::string settings = frontEndFingerprint();
   settings.append(reinterpret_cast<const char*>(&leaf), sizeof(leaf));
+  settings.push_back(static_cast<char>(descriptors));
   settings_ = toHex(hashOf(settings));
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "descriptors.h"
 #include "stored_scan.h"
 
 #include <optional>
@@ -12,7 +13,7 @@ namespace pcl_flashreg::evaluate {
 
 /** \brief Features on disk, one file a cloud and setting.
  *
- * A file's name is made from the contents of the cloud's file, the voxel size, and what the
+ * A file's name is made from the contents of the cloud's file, the voxel size, the descriptors, and what the
  * front end makes of a small made cloud: whatever changes, even in the code, leads to
  * another name. Files are written under another name and renamed, so that a crash leaves
  * none that is half done, and hold scans as Scan::serialize() writes them: one that is
@@ -21,7 +22,7 @@ namespace pcl_flashreg::evaluate {
 class FeatureCache {
 public:
   /** \throws io::InputError if the folder is not there and cannot be made */
-  FeatureCache(std::string folder, double leaf);
+  FeatureCache(std::string folder, double leaf, Descriptors descriptors);
 
   /** \brief Where the features of a cloud's file belong.
    * \throws io::InputError if the cloud cannot be read

@@ -14,11 +14,15 @@ namespace pcl_flashreg::evaluate {
 FeatureStore::FeatureStore(std::string root,
                            double leaf,
                            unsigned threads,
-                           const std::string& cache_folder)
-    : root_(std::move(root)), leaf_(leaf), maker_(BackendKind::Cpu, threads)
+                           const std::string& cache_folder,
+                           Descriptors descriptors)
+    : root_(std::move(root)),
+      leaf_(leaf),
+      maker_(BackendKind::Cpu, threads),
+      descriptors_(descriptors)
 {
   if (!cache_folder.empty())
-    cache_.emplace(cache_folder, leaf);
+    cache_.emplace(cache_folder, leaf, descriptors);
 }
 
 void
@@ -48,6 +52,15 @@ FeatureStore::release(const Pair& pair)
     }
 }
 
+Scan
+FeatureStore::make(const ScanInput<double>& input, ScanContent content)
+{
+  if (descriptors_ == Descriptors::Native || content == ScanContent::Surface)
+    return maker_.makeScan(input, leaf_, content);
+  return describeAnew(
+      maker_.makeScan(input, leaf_, ScanContent::Surface), descriptors_, maker_);
+}
+
 FeatureStore::Cloud
 FeatureStore::describe(const std::string& path, ScanContent content)
 {
@@ -62,7 +75,7 @@ FeatureStore::describe(const std::string& path, ScanContent content)
   const auto stored = std::make_shared<StoredScan>();
   const detail::Stopwatch stopwatch;
   try {
-    stored->scan = maker_.makeScan(io::scanInput(file, xyz), leaf_, content);
+    stored->scan = make(io::scanInput(file, xyz), content);
   }
   catch (const std::invalid_argument& error) {
     throw io::InputError(path + ": " + error.what());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../datasets/pair.h"
+#include "descriptors.h"
 #include "stored_scan.h"
 #include "feature_cache.h"
 
@@ -29,7 +30,8 @@ public:
   FeatureStore(std::string root,
                double leaf,
                unsigned threads,
-               const std::string& cache_folder);
+               const std::string& cache_folder,
+               Descriptors descriptors = Descriptors::Native);
 
   /** \brief Announces a pair that get() will be called for. */
   void
@@ -53,10 +55,13 @@ public:
 private:
   Cloud
   describe(const std::string& path, ScanContent content);
+  Scan
+  make(const ScanInput<double>& input, ScanContent content);
 
   std::string root_;
   double leaf_;
   PairRegistration maker_;
+  Descriptors descriptors_;
   std::optional<FeatureCache> cache_;
   std::map<std::string, std::size_t> uses_;
   std::map<std::pair<std::string, ScanContent>, Cloud> clouds_;

@@ -140,7 +140,11 @@ evaluatePairs(const Options& options,
               const std::function<void(const std::vector<Record>&)>& done)
 {
   const std::vector<NamedMethod> methods = makeMethods(options, job);
-  FeatureStore store(job.data.root, job.data.leaf, options.threads, options.cache);
+  FeatureStore store(job.data.root,
+                     job.data.leaf,
+                     options.threads,
+                     options.cache,
+                     options.descriptors);
   PairRegistration registration(BackendKind::Cpu, options.threads);
   const TruthStore truths(job.data.root, options.cache);
   const auto pairAt = [&](std::size_t position) -> const Pair& {

@@ -76,6 +76,8 @@ makeConfig(const Options& options, const Job& job)
   config["leaf"] = job.data.leaf;
   config["neighbors"] = options.neighbors;
   config["score"] = options.score_name;
+  if (options.descriptors != Descriptors::Native)
+    config["features"] = options.descriptors_name;
   config["max_rotation_deg"] = job.data.criterion.max_rotation;
   config["max_translation"] = job.data.criterion.max_translation;
   config["front_end"] = frontEndFingerprint();

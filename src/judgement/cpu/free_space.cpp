@@ -30,8 +30,10 @@ FreeSpace::pixelOf(const Eigen::Vector3f& ray) const
     return 0;
   const int face = 2 * static_cast<int>(axis) + (ray[axis] > 0 ? 0 : 1);
   const auto column = [&](Eigen::Index a) {
-    const float along = 0.5f * (ray[a] / largest + 1);
-    return std::min(edge_ - 1, static_cast<int>(along * static_cast<float>(edge_)));
+    const float along = 0.5f * (ray[a] / largest + 1) * static_cast<float>(edge_);
+    // What overflows is no number here: it is put into the first column.
+    const int pixel = along > 0 ? static_cast<int>(along) : 0;
+    return std::min(edge_ - 1, pixel);
   };
   return (static_cast<std::size_t>(face) * edge_ + column(axis == 0 ? 1 : 0)) * edge_ +
          column(axis == 2 ? 1 : 2);
@@ -43,7 +45,7 @@ FreeSpace::build(const std::vector<Eigen::Vector3f>& points,
                  float spacing)
 {
   clear();
-  if (points.empty())
+  if (points.empty() || !viewpoint.allFinite())
     return;
   viewpoint_ = viewpoint;
   margin_ = MARGIN * spacing;
