@@ -72,15 +72,24 @@ template <typename Scalar>
 Eigen::Vector3d
 singlePrecisionShift(const BasicPointView<Scalar>& points)
 {
+  using Vector = Eigen::Matrix<Scalar, 3, 1>;
+  constexpr Scalar ENDLESS = std::numeric_limits<Scalar>::infinity();
+  Vector low = Vector::Constant(ENDLESS), high = -low;
+  for (std::size_t i = 0; i < countOf(points); ++i) {
+    const Eigen::Map<const Vector> point(pointOf(points, i));
+    // Zero, unless a coordinate is not finite: cheaper than to ask each of them.
+    if ((0 * point).sum() == 0) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
+  }
+  if (!(low.x() <= high.x()))
+    return Eigen::Vector3d::Zero();
   // A hundred-thousandth of the extent: finer than any sensor resolves.
   constexpr double FLOAT_STEP = std::numeric_limits<float>::epsilon();
   constexpr double TOLERABLE = 1e-5;
-  Eigen::AlignedBox3d box;
-  for (std::size_t i = 0; i < countOf(points); ++i)
-    if (isFinite(pointOf(points, i)))
-      box.extend(toEigen(pointOf(points, i)));
-  if (box.isEmpty())
-    return Eigen::Vector3d::Zero();
+  const Eigen::AlignedBox3d box(low.template cast<double>(),
+                                high.template cast<double>());
   const double farthest =
       box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   const bool far = farthest * FLOAT_STEP > TOLERABLE * box.sizes().maxCoeff();
