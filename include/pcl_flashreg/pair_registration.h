@@ -131,6 +131,8 @@ struct PairResult {
  * descriptors, correspondences or scans already enters where these are; clouds judge
  * wherever there are clouds.
  *
+ * Its templates are there for float and double.
+ *
  * Deterministic, as Estimator is. An object owns its threads and its memory, so that later
  * calls allocate little; use one object a thread.
  */
@@ -158,25 +160,19 @@ public:
    * \throws std::invalid_argument if the resolution is not > 0 and finite, or too small for
    * the extent of the cloud; if a size, a stride or an index is out of range
    */
+  template <typename Scalar>
   Scan
-  makeScan(const ScanInput<float>& input,
-           double resolution,
-           ScanContent content = ScanContent::Descriptors,
-           FeatureTimings* timings = nullptr);
-  Scan
-  makeScan(const ScanInput<double>& input,
+  makeScan(const ScanInput<Scalar>& input,
            double resolution,
            ScanContent content = ScanContent::Descriptors,
            FeatureTimings* timings = nullptr);
 
   /** \brief The resolution that align() takes for two clouds where no options say.
    * \throws std::invalid_argument as align() */
+  template <typename Scalar>
   double
-  chooseResolution(const ScanInput<float>& source,
-                   const ScanInput<float>& target) const;
-  double
-  chooseResolution(const ScanInput<double>& source,
-                   const ScanInput<double>& target) const;
+  chooseResolution(const ScanInput<Scalar>& source,
+                   const ScanInput<Scalar>& target) const;
 
   /** \brief Each source descriptor with its nearest ones of the target, as
    * FeatureMatcher::match(), or with PairOptions::mutual those that hold both ways.
@@ -191,13 +187,10 @@ public:
    * whose resolution has to be estimated has fewer than two distinct finite points
    * \throws BackendError, std::bad_alloc if the machine fails; the object stays usable
    */
+  template <typename Scalar>
   PairResult
-  align(const ScanInput<float>& source,
-        const ScanInput<float>& target,
-        const PairOptions& options = {});
-  PairResult
-  align(const ScanInput<double>& source,
-        const ScanInput<double>& target,
+  align(const ScanInput<Scalar>& source,
+        const ScanInput<Scalar>& target,
         const PairOptions& options = {});
 
   /** \brief From scans with descriptors to the pose. */
@@ -206,15 +199,11 @@ public:
 
   /** \brief From correspondences of the caller's to the pose; the clouds that they lie in
    * judge it. Without points in one of both clouds the correspondences decide alone. */
+  template <typename Scalar>
   PairResult
-  align(const ScanInput<float>& source,
-        const ScanInput<float>& target,
-        const CorrespondenceView<float>& correspondences,
-        const PairOptions& options = {});
-  PairResult
-  align(const ScanInput<double>& source,
-        const ScanInput<double>& target,
-        const CorrespondenceView<double>& correspondences,
+  align(const ScanInput<Scalar>& source,
+        const ScanInput<Scalar>& target,
+        const CorrespondenceView<Scalar>& correspondences,
         const PairOptions& options = {});
 
   /** \brief The same where the clouds are scans already. */

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "registration/pair_call.h"
+
+#include "matching/search.h"
+
+#include <pcl_flashreg/resolution.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace pcl_flashreg {
+namespace {
+
+/** \brief Nothing, if the points are too few to tell. */
+template <typename Scalar>
+std::optional<double>
+spacingOf(const Scalar* xyz, std::size_t size)
+{
+  ScanInput<Scalar> input;
+  input.points.data = xyz;
+  input.points.size = size;
+  try {
+    return estimateVoxelSize(PreparedInput(input).points);
+  }
+  catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+JudgingCloud
+judgeFrom(const Scan& scan)
+{
+  CloudView<float> view{scan.points(), scan.normals(), scan.size(), std::nullopt};
+  if (scan.viewpoint())
+    view.viewpoint = *scan.viewpoint() - scan.shift();
+  return {view, {scan.shift().x(), scan.shift().y(), scan.shift().z()}};
+}
+
+} // namespace
+
+void
+PairCall::begin(PairStep step) const
+{
+  if (options_.on_step)
+    options_.on_step({step,
+                      result_.resolution,
+                      result_.source.size(),
+                      result_.target.size(),
+                      result_.correspondences});
+}
+
+void
+PairCall::chooseResolution(const PreparedInput& source, const PreparedInput& target)
+{
+  if (options_.resolution) {
+    result_.resolution = *options_.resolution;
+    return;
+  }
+  begin(PairStep::Resolution);
+  const detail::Stopwatch watch;
+  result_.source_estimate = estimateResolution(source);
+  result_.target_estimate = estimateResolution(target);
+  result_.resolution = std::max(*result_.source_estimate, *result_.target_estimate);
+  result_.timings.resolution = watch.milliseconds();
+}
+
+template <typename Scalar>
+void
+PairCall::chooseResolution(const CorrespondenceView<Scalar>& correspondences)
+{
+  if (options_.resolution) {
+    result_.resolution = *options_.resolution;
+    return;
+  }
+  begin(PairStep::Resolution);
+  const detail::Stopwatch watch;
+  const auto source = spacingOf(correspondences.source_xyz, correspondences.size);
+  const auto target = spacingOf(correspondences.target_xyz, correspondences.size);
+  if (source && target)
+    result_.resolution = std::min(*source, *target);
+  result_.timings.resolution = watch.milliseconds();
+}
+
+template void
+PairCall::chooseResolution(const CorrespondenceView<float>&);
+template void
+PairCall::chooseResolution(const CorrespondenceView<double>&);
+
+void
+PairCall::makeScans(const PreparedInput& source,
+                    const PreparedInput& target,
+                    ScanContent content)
+{
+  const double resolution = result_.resolution;
+  PairTimings& timings = result_.timings;
+  begin(PairStep::SourceScan);
+  result_.source = workers_.maker.make(source, resolution, content, timings.source);
+  begin(PairStep::TargetScan);
+  result_.target = workers_.maker.make(target, resolution, content, timings.target);
+}
+
+void
+PairCall::takeScans(const Scan& source, const Scan& target)
+{
+  result_.source = source;
+  result_.target = target;
+  result_.resolution =
+      options_.resolution.value_or(std::max(source.spacing(), target.spacing()));
+}
+
+Correspondences
+PairCall::match()
+{
+  begin(PairStep::Matching);
+  const detail::Stopwatch watch;
+  result_.matches =
+      matchScans(result_.source, result_.target, options_, workers_.search.pool());
+  Correspondences correspondences =
+      toCorrespondences(result_.source, result_.target, result_.matches);
+  result_.timings.matching = watch.milliseconds();
+  return correspondences;
+}
+
+template <typename Scalar>
+void
+PairCall::estimate(const CorrespondenceView<Scalar>& correspondences)
+{
+  result_.correspondences = correspondences.size;
+  begin(PairStep::Estimation);
+  result_.parameters = options_.parametersFor(result_.resolution);
+  const JudgingClouds clouds{
+      judgeFrom(result_.source), judgeFrom(result_.target), result_.resolution};
+  const bool ask =
+      options_.cloud_check && !result_.source.empty() && !result_.target.empty();
+  result_.pose = workers_.search.run(
+      correspondences, result_.parameters, options_.guess, ask ? &clouds : nullptr);
+  result_.timings.estimation = result_.pose.timings_ms;
+}
+
+template void
+PairCall::estimate(const CorrespondenceView<float>&);
+template void
+PairCall::estimate(const CorrespondenceView<double>&);
+
+PairResult
+PairCall::finish()
+{
+  result_.timings.total = total_.milliseconds();
+  return std::move(result_);
+}
+
+std::vector<FeatureMatch>
+matchScans(const Scan& source,
+           const Scan& target,
+           const PairOptions& options,
+           ThreadPool& pool)
+{
+  MutualMatches matches = searchFeatures(
+      source.features(), target.features(), options.neighbors, options.mutual, pool);
+  return options.mutual ? matches.mutual() : std::move(matches.forward);
+}
+
+} // namespace pcl_flashreg
