@@ -72,12 +72,8 @@ measureAblations(const Options& options, const std::vector<NamedProblem>& proble
   std::vector<NamedAblation> all;
   for (const NamedProblem& named : problems) {
     const Parameters parameters = parametersOf(options, "auto");
-    Preparation preparation;
     Problem problem;
-    prepare(named.view(),
-            static_cast<std::size_t>(parameters.max_correspondences),
-            preparation,
-            problem);
+    prepare(named.view(), parameters, problem);
     all.push_back(
         {named.name, problem.size, measureAblation(problem, parameters, options.runs)});
     print(all.back());

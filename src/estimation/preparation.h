@@ -32,6 +32,20 @@ prepare(const CorrespondenceView<Scalar>& correspondences,
         Preparation& preparation,
         Problem& problem);
 
+/** \brief The same for who does not ask what became of the rows. */
+template <typename Scalar>
+void
+prepare(const CorrespondenceView<Scalar>& correspondences,
+        const Parameters& parameters,
+        Problem& problem)
+{
+  Preparation preparation;
+  prepare(correspondences,
+          static_cast<std::size_t>(parameters.max_correspondences),
+          preparation,
+          problem);
+}
+
 extern template void
 prepare(const CorrespondenceView<float>&, std::size_t, Preparation&, Problem&);
 extern template void

@@ -47,11 +47,7 @@ record(Backend& backend,
 inline void
 pack(const made::NamedProblem& named, Problem& problem)
 {
-  Preparation preparation;
-  prepare(named.correspondences.view(),
-          static_cast<std::size_t>(named.parameters.max_correspondences),
-          preparation,
-          problem);
+  prepare(named.correspondences.view(), named.parameters, problem);
 }
 
 template <typename Value>

@@ -46,11 +46,7 @@ public:
                const Parameters& parameters)
       : parameters_(parameters)
   {
-    Preparation preparation;
-    prepare(correspondences,
-            static_cast<std::size_t>(parameters.max_correspondences),
-            preparation,
-            problem_);
+    prepare(correspondences, parameters, problem_);
     cuda::Options options;
     options.resident_points = true;
     options.stage_timings = false;

@@ -3,7 +3,7 @@
 
 #include "made_points.h"
 
-#include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/pair_registration.h>
 
 #include <cstdio>
 #include <vector>
@@ -37,5 +37,17 @@ main()
               result.converged,
               result.inliers.size(),
               error.norm());
-  return result.converged && error.norm() < 1e-3 ? 0 : 1;
+
+  // The same through the whole way, and a scan through a file's bytes.
+  pcl_flashreg::PairRegistration registration;
+  pcl_flashreg::ScanInput<double> nothing, cloud;
+  const auto pair = registration.align(nothing, nothing, correspondences);
+  cloud.points.data = source.data();
+  cloud.points.size = source.size() / 3;
+  const auto scan =
+      registration.makeScan(cloud, 0.5, pcl_flashreg::ScanContent::Surface);
+  const auto loaded = pcl_flashreg::Scan::deserialize(scan.serialize());
+  const bool right = pair.pose.inliers.size() >= 100 && scan.size() > 50 &&
+                     loaded.size() == scan.size();
+  return right && result.converged && error.norm() < 1e-3 ? 0 : 1;
 }
