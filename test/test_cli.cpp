@@ -334,6 +334,20 @@ TEST_F(CliTest, theCloudsHaveASayUnlessToldOtherwise)
   EXPECT_EQ(unseen.at("evidence").at("viewpoints"), false);
   expectTruth(poseOf(unseen));
 
+  for (const char* one :
+       {"--no-viewpoint source", "--no-viewpoint=target", "--no-viewpoint target"}) {
+    const auto half = align(common + one).json();
+    EXPECT_EQ(half.at("evidence").at("viewpoints"), true) << one;
+    EXPECT_EQ(half.at("evidence").at("one_viewpoint"), true) << one;
+    expectTruth(poseOf(half));
+  }
+  // A path behind it is a path.
+  EXPECT_EQ(align("--no-viewpoint " + common).json().at("evidence"),
+            unseen.at("evidence"));
+  EXPECT_EQ(align(common + "--no-viewpoint=both").json().at("evidence"),
+            unseen.at("evidence"));
+  EXPECT_EQ(align(common + "--no-viewpoint=neither").status, 2);
+
   const auto fast = align(common + "--fast").json();
   EXPECT_FALSE(fast.at("evidence").contains("matched"));
   EXPECT_GT(fast.at("evidence").at("inliers").get<double>(), 12);

@@ -141,12 +141,13 @@ addPipeline(CLI::App& app, Options& options, Words& words)
                        "less, fewer right poses, a weaker verdict"))
       ->group(group);
   app.add_flag(
-         "--no-viewpoint{both}",
+         "--no-viewpoint",
          words.no_viewpoint,
-         wrapped("With 'source' or 'target' the sensor of that cloud, else those of "
+         wrapped("With 'source' or 'target' behind it the sensor of that cloud, else "
+                 "those of "
                  "both did not stand at its VIEWPOINT (the origin, where a file states "
                  "none): don't take the space between it and the points for empty"))
-      ->check(CLI::IsMember({"source", "target", "both"}).description(""))
+      ->check(CLI::IsMember({"source", "target", "both", "true"}).description(""))
       ->group(group);
   app.add_option("--backend", words.backend, wrapped("auto, cpu or cuda"))
       ->capture_default_str()

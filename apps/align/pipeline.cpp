@@ -128,6 +128,10 @@ private:
   {
     if (!options.resolution)
       options.resolution = registration.chooseResolution(source_, target_);
+    options.on_step = [&](const PairProgress& at) {
+      if (at.step >= PairStep::Matching)
+        tell(at);
+    };
     FeatureTimings source_time, target_time;
     const auto describe = [&](const ScanInput<double>& cloud,
                               const InputCloud& input,
