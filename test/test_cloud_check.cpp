@@ -370,6 +370,8 @@ TEST(Confidence, GrowsWithWhatSpeaksForAPose)
   evidence.inlier_ratio = 0.02;
   evidence.rival_inliers = 30;
   evidence.thickness = 8;
+  evidence.breadth = 16;
+  evidence.log_chance = -100;
   Evidence better = evidence;
   better.inliers = 120;
   EXPECT_GT(confidenceOf(better), confidenceOf(evidence));

@@ -67,7 +67,9 @@ evidenceOf(const Evidence& evidence)
   Json json = {{"inliers", evidence.inliers},
                {"inlier_ratio", evidence.inlier_ratio},
                {"rival_inliers", evidence.rival_inliers},
-               {"thickness", evidence.thickness}};
+               {"thickness", evidence.thickness},
+               {"breadth", evidence.breadth},
+               {"log_chance", evidence.log_chance}};
   if (evidence.has_clouds) {
     json["viewpoints"] = evidence.has_viewpoints;
     json["one_viewpoint"] = evidence.one_viewpoint;

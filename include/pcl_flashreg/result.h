@@ -85,6 +85,12 @@ struct Evidence {
    * halves of the inlier distance: near 0 if they lie in a plane, which leaves a pose free
    * to slide. */
   double thickness = 0;
+  /** \brief The middle one of these three standard deviations, likewise: near 0 if the
+   * inliers lie on a line, which leaves a pose free to turn about it. */
+  double breadth = 0;
+  /** \brief Logarithm of how many poses would have as many inliers, were the same points
+   * paired at random: 0 is what chance gives. An upper bound (see docs/method.md). */
+  double log_chance = 0;
 
   /** \brief Whether the clouds were asked: the rest is 0 where not. */
   bool has_clouds = false;

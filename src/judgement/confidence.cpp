@@ -23,6 +23,23 @@ limitByRival(const Evidence& e)
   return 1 / (1 + std::pow(e.rival_inliers / std::max(1.0, e.inliers), 4));
 }
 
+/** \brief Nor than that it is no play of chance: 50 % where one pose is expected to have as
+ * many inliers with pairs that were drawn at random. */
+double
+limitByChance(const Evidence& e)
+{
+  return logistic(-e.log_chance);
+}
+
+/** \brief Nor than that the inliers hold it: on a line as thin as the inlier distance, it may
+ * turn. */
+double
+limitByBreadth(const Evidence& e)
+{
+  const double fourth = std::pow(e.breadth, 4);
+  return fourth / (1 + fourth);
+}
+
 double
 fromCorrespondences(const Evidence& e)
 {
@@ -30,7 +47,7 @@ fromCorrespondences(const Evidence& e)
                             1.90 * std::log(e.inlier_ratio + 1e-4) +
                             0.33 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
                             1.66 * std::log(e.thickness + 1));
-  return std::min(p, limitByRival(e));
+  return std::min({p, limitByRival(e), limitByChance(e), limitByBreadth(e)});
 }
 
 double

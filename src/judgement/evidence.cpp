@@ -20,12 +20,13 @@ sourceOf(const Problem& problem, int row)
   return {point.x, point.y, point.z};
 }
 
-/** \brief Smallest standard deviation of the rows' source points along any axis. */
-double
-thicknessOf(const Problem& problem, const std::vector<int>& rows)
+/** \brief Standard deviations of the rows' source points along their principal axes,
+ * ascending. */
+Eigen::Vector3d
+spreadOf(const Problem& problem, const std::vector<int>& rows)
 {
   if (rows.empty())
-    return 0;
+    return Eigen::Vector3d::Zero();
   const auto count = static_cast<double>(rows.size());
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const int row : rows)
@@ -37,7 +38,54 @@ thicknessOf(const Problem& problem, const std::vector<int>& rows)
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance,
                                                               Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
+  return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+}
+
+/** \brief Share of all pairs of a source and a target point that are inliers of the pose:
+ * the chance that one is which is paired at random. From some of the sources. */
+double
+shareOfAllPairs(const Problem& problem, const Pose& pose, float inlier_distance)
+{
+  constexpr std::size_t SOURCES = 128;
+  const std::size_t looked_at = std::min(SOURCES, problem.size);
+  const float limit = inlier_distance * inlier_distance;
+  std::size_t near = 0;
+  for (std::size_t k = 0; k < looked_at; ++k) {
+    const Vec3 moved = transform(pose, problem.source(k * problem.size / looked_at));
+    const auto x = static_cast<float>(moved.x), y = static_cast<float>(moved.y),
+               z = static_cast<float>(moved.z);
+    for (std::size_t i = 0; i < problem.size; ++i) {
+      const float dx = problem.tx[i] - x, dy = problem.ty[i] - y,
+                  dz = problem.tz[i] - z;
+      near += (dx * dx + dy * dy) + dz * dz < limit ? 1 : 0;
+    }
+  }
+  return static_cast<double>(near) /
+         (static_cast<double>(looked_at) * static_cast<double>(problem.size));
+}
+
+/** \brief Poses that differ in their inliers: steps of half the inlier distance in three
+ * directions, and of what moves the farthest point as much in three turns. */
+double
+logOfPoses(const Problem& problem, float inlier_distance)
+{
+  constexpr double STEPS = 2, MOTIONS = 6;
+  return MOTIONS *
+         std::log(std::max(1.0, STEPS * 2 * problem.radius / inlier_distance));
+}
+
+/** \brief Bound on the logarithm of the chance of that many hits in so many draws (Chernoff,
+ * Hoeffding). */
+double
+logOfTail(double hits, double draws, double share)
+{
+  const double found = hits / draws;
+  if (found <= share)
+    return 0;
+  double divergence = found * std::log(found / share);
+  if (found < 1)
+    divergence += (1 - found) * std::log((1 - found) / (1 - share));
+  return -draws * divergence;
 }
 
 } // namespace
@@ -75,6 +123,7 @@ scoreOf(const Problem& problem,
 
 void
 addCorrespondences(const Problem& problem,
+                   const Pose& pose,
                    const std::vector<int>& inliers,
                    int rival_inliers,
                    float inlier_distance,
@@ -83,7 +132,14 @@ addCorrespondences(const Problem& problem,
   evidence.inliers = static_cast<double>(inliers.size());
   evidence.inlier_ratio = evidence.inliers / static_cast<double>(problem.size);
   evidence.rival_inliers = rival_inliers;
-  evidence.thickness = thicknessOf(problem, inliers) / (0.5 * inlier_distance);
+  const Eigen::Vector3d spread = spreadOf(problem, inliers) / (0.5 * inlier_distance);
+  evidence.thickness = spread[0];
+  evidence.breadth = spread[1];
+  const auto draws = static_cast<double>(problem.size);
+  const double share =
+      std::max(shareOfAllPairs(problem, pose, inlier_distance), 1 / (draws * draws));
+  evidence.log_chance =
+      logOfPoses(problem, inlier_distance) + logOfTail(evidence.inliers, draws, share);
 }
 
 } // namespace pcl_flashreg

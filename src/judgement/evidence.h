@@ -26,6 +26,7 @@ scoreOf(const Problem& problem,
 /** \brief Fills in the part of the evidence that comes from correspondences. */
 void
 addCorrespondences(const Problem& problem,
+                   const Pose& pose,
                    const std::vector<int>& inliers,
                    int rival_inliers,
                    float inlier_distance,

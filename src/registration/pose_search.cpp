@@ -139,8 +139,12 @@ PoseSearch::fill(Result& result,
   result.distinctness = rival > 0 ? static_cast<double>(estimate.inliers.size()) / rival
                                   : std::numeric_limits<double>::infinity();
   result.evidence = findings.evidence;
-  addCorrespondences(
-      problem_, estimate.inliers, rival, parameters.inlier_distance, result.evidence);
+  addCorrespondences(problem_,
+                     estimate.hypotheses.front().pose,
+                     estimate.inliers,
+                     rival,
+                     parameters.inlier_distance,
+                     result.evidence);
   for (std::size_t i = 0; i < findings.poses.size(); ++i)
     result.hypotheses[i].agreement = findings.poses[i].agreement;
   result.hypotheses.resize(

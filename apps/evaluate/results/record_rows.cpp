@@ -100,7 +100,9 @@ resultColumns()
           "matched",
           "contradicted",
           "lead",
-          "stiffness"};
+          "stiffness",
+          "breadth",
+          "log_chance"};
 }
 
 std::vector<std::string>
@@ -146,7 +148,9 @@ resultCells(const Record& r)
                 toText(e.agreement.matched),
                 toText(e.agreement.contradicted),
                 toText(e.lead),
-                toText(e.stiffness)});
+                toText(e.stiffness),
+                toText(e.breadth),
+                toText(e.log_chance)});
   return cells;
 }
 
@@ -198,6 +202,8 @@ recordFromCells(const std::vector<std::string>& cells)
   e.agreement.contradicted = reader.number();
   e.lead = reader.number();
   e.stiffness = reader.number();
+  e.breadth = reader.number();
+  e.log_chance = reader.number();
   return r;
 }
 

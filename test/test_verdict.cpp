@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+// What must not be trusted, whatever agrees with it.
+
+#include "judgement/confidence.h"
+#include "support/made_correspondences.h"
+
+#include <pcl_flashreg/estimator.h>
+
+#include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace pcl_flashreg {
+namespace {
+
+struct Pairs {
+  std::vector<double> source, target;
+
+  void
+  add(const Eigen::Vector3d& s, const Eigen::Vector3d& t)
+  {
+    source.insert(source.end(), s.data(), s.data() + 3);
+    target.insert(target.end(), t.data(), t.data() + 3);
+  }
+
+  Result
+  estimate(double resolution) const
+  {
+    const CorrespondenceView<double> view{
+        source.data(), target.data(), source.size() / 3, nullptr};
+    return Estimator(BackendKind::Cpu, 1)
+        .estimate(view, Parameters::fromResolution(resolution));
+  }
+};
+
+Eigen::Isometry3d
+truth()
+{
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.rotate(Eigen::AngleAxisd(1.2, Eigen::Vector3d(1, 2, 3).normalized()));
+  T.pretranslate(Eigen::Vector3d(1, 2, 3));
+  return T;
+}
+
+Eigen::Vector3d
+noise(made::Random& random, double deviation)
+{
+  const double x = random.normal(), y = random.normal(), z = random.normal();
+  return deviation * Eigen::Vector3d(x, y, z);
+}
+
+/** \brief Right pairs along a line, or in a strip beside it. */
+Pairs
+alongALine(int count, double breadth, double deviation)
+{
+  made::Random random(5);
+  Pairs pairs;
+  const Eigen::Vector3d along = Eigen::Vector3d(1, 2, 3).normalized(),
+                        across = along.unitOrthogonal();
+  for (int i = 0; i < count; ++i) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-breadth, breadth);
+    const Eigen::Vector3d s = x * along + y * across;
+    pairs.add(s + noise(random, deviation), truth() * s + noise(random, deviation));
+  }
+  return pairs;
+}
+
+TEST(Verdict, DoesNotTrustWhatMayTurnAboutALine)
+{
+  for (const int count : {100, 1000, 5000})
+    for (const double deviation : {0.001, 0.01}) {
+      const Result result = alongALine(count, 0, deviation).estimate(0.05);
+      EXPECT_LT(result.confidence, 0.1) << count << ' ' << deviation;
+      EXPECT_LT(result.evidence.breadth, 0.5);
+    }
+  const Result held = alongALine(1000, 0.5, 0.001).estimate(0.05);
+  EXPECT_TRUE(held.converged) << "a plane holds all of a rotation";
+  EXPECT_LT(held.evidence.thickness, 0.1);
+  EXPECT_GT(held.evidence.breadth, 4);
+}
+
+/** \brief Points of two cubes of 1 m, paired at random, of which some are right. */
+Pairs
+pairedAtRandom(int count, int right, std::uint64_t seed)
+{
+  made::Random random(seed);
+  Pairs pairs;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d s = random.inCube(1), t = random.inCube(1);
+    pairs.add(s, i < right ? Eigen::Vector3d(truth() * s) : t);
+  }
+  return pairs;
+}
+
+TEST(Verdict, DoesNotTrustChance)
+{
+  for (const int count : {20, 100, 500, 2000})
+    for (const double resolution : {0.01, 0.05, 0.1, 0.2, 0.5})
+      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const Result result = pairedAtRandom(count, 0, seed).estimate(resolution);
+        EXPECT_FALSE(result.converged) << count << ' ' << resolution;
+        if (result.status == Status::Ok) {
+          EXPECT_GT(result.evidence.log_chance, 0) << count << ' ' << resolution;
+        }
+      }
+  const Result result = pairedAtRandom(500, 60, 1).estimate(0.02);
+  EXPECT_TRUE(result.converged) << result.confidence;
+  EXPECT_LT(result.evidence.log_chance, -50);
+}
+
+TEST(Verdict, IsLimitedByEachOfItsNeeds)
+{
+  Evidence evidence;
+  evidence.inliers = 500;
+  evidence.inlier_ratio = 0.2;
+  evidence.thickness = evidence.breadth = 20;
+  evidence.log_chance = -300;
+  const double p = confidenceOf(evidence);
+  EXPECT_GT(p, 0.95);
+  Evidence worse = evidence;
+  worse.rival_inliers = 500;
+  EXPECT_LE(confidenceOf(worse), 0.5);
+  worse = evidence;
+  worse.breadth = 1;
+  EXPECT_LE(confidenceOf(worse), 0.5);
+  worse = evidence;
+  worse.log_chance = 0;
+  EXPECT_LE(confidenceOf(worse), 0.5);
+}
+
+} // namespace
+} // namespace pcl_flashreg
