@@ -302,6 +302,35 @@ TEST_F(GivenFeatures, MayBeOfAnyTypeThatIsAnArrayOfFloats)
   EXPECT_LT(other.getCorrespondences()[0].distance, all);
 }
 
+TEST(ComputedFeatures, StayWhereTheResolutionIsEstimatedAgain)
+{
+  Registration registration;
+  Cloud output;
+  registration.setInputTarget(room().target);
+  registration.setInputSource(room().source);
+  registration.align(output);
+  const double resolution = registration.getResolution();
+  EXPECT_GT(resolution, 0);
+  const auto source_points = registration.getSourceFpfh().points;
+  registration.align(output);
+  EXPECT_EQ(registration.getResolution(), resolution);
+  EXPECT_EQ(registration.getSourceFpfh().points, source_points);
+
+  const Cloud::Ptr half(new Cloud);
+  for (const auto& point : *room().source)
+    half->push_back(
+        RoomPairXYZ::toPoint<PointT>(0.5 * point.getVector3fMap().cast<double>()));
+  const Cloud::Ptr half_target(new Cloud);
+  for (const auto& point : *room().target)
+    half_target->push_back(
+        RoomPairXYZ::toPoint<PointT>(0.5 * point.getVector3fMap().cast<double>()));
+  registration.setInputSource(half);
+  registration.setInputTarget(half_target);
+  registration.align(output);
+  EXPECT_LT(registration.getResolution(), 0.7 * resolution)
+      << "another pair, another one";
+}
+
 TEST(ComputedFeatures, OfATargetThatStaysAreComputedOnce)
 {
   const RoomPairXYZ other(400, 7);

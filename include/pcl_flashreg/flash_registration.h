@@ -512,6 +512,8 @@ private:
   FrontEnd front_end_ = FrontEnd::Native;
 
   double estimated_resolution_ = 0;
+  /** \brief For descriptors that the class computes, as long as the clouds stay. */
+  std::optional<double> known_estimate_;
   /** \brief Of the last align(). */
   double inlier_distance_ = 0;
   float inlier_fraction_ = 0;

@@ -34,14 +34,16 @@ public:
     resolution_ = 0;
   }
 
-  /** \brief The points to use; empty for all of them. */
-  void
+  /** \brief The points to use; empty for all of them.
+   * \return whether they are others than before */
+  bool
   setIndices(const pcl::Indices& indices)
   {
     if (indices == indices_)
-      return;
+      return false;
     indices_ = indices;
     reset();
+    return true;
   }
 
   const pcl::Indices&

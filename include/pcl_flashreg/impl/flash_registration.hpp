@@ -33,6 +33,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::setInputSource(
 {
   resetResult();
   source_side_.reset();
+  known_estimate_.reset();
   if (cloud)
     Base::setInputSource(cloud);
   else
@@ -46,6 +47,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::setInputTarget(
 {
   resetResult();
   target_side_.reset();
+  known_estimate_.reset();
   if (cloud)
     Base::setInputTarget(cloud);
   else

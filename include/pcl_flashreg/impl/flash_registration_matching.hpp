@@ -63,7 +63,8 @@ PairResult
 FlashRegistration<PointSource, PointTarget, FeatureT>::alignInputs(
     const PairOptions& options)
 {
-  source_side_.setIndices(sourceIndices());
+  if (source_side_.setIndices(sourceIndices()))
+    known_estimate_.reset();
   const detail::FloatRows<PointSource> source_rows(*input_, source_side_.indices());
   const detail::FloatRows<PointTarget> target_rows(*target_, {});
   ScanInput<float> source = source_side_.inputFrom(*input_, source_rows);
@@ -123,6 +124,8 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::alignComputedFeatures(
     ScanInput<float>& source, ScanInput<float>& target, PairOptions options)
 {
   PairRegistration& registration = registration_.get();
+  if (!options.resolution)
+    options.resolution = known_estimate_;
   if (front_end_ == FrontEnd::Pcl) {
     if (!options.resolution)
       options.resolution = registration.chooseResolution(source, target);
@@ -133,6 +136,8 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::alignComputedFeatures(
         target_side_.describeWithPcl(*target_, *options.resolution, threads, target);
   }
   const PairResult result = registration.align(source, target, options);
+  if (resolution_ == 0)
+    known_estimate_ = result.resolution;
   source_side_.keep(*input_, result.source);
   target_side_.keep(*target_, result.target);
   for (const FeatureMatch& match : result.matches)

@@ -56,8 +56,10 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::applyResult(
   if (inlier_fraction_ > 0 || in_place)
     converged_ &= static_cast<float>(getInliers().size()) >=
                   inlier_fraction_ * static_cast<float>(indices_->size());
-  if (in_place)
+  if (in_place) {
     source_side_.reset();
+    known_estimate_.reset();
+  }
   // The output holds a copy of the source by now. The pose is applied in double
   // precision: coordinates may be large.
   if constexpr (pcl::traits::has_normal<PointSource>::value)
