@@ -6,7 +6,7 @@
 #include "judgement/confidence.h"
 #include "support/made_correspondences.h"
 
-#include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/pair_registration.h>
 
 #include <Eigen/Geometry>
 
@@ -112,6 +112,41 @@ TEST(Verdict, DoesNotTrustChance)
   EXPECT_LT(result.evidence.log_chance, -50);
 }
 
+/** \brief Rectangles on a floor, seen from above: nothing but correspondences holds a pose. */
+TEST(Verdict, DoesNotTrustAFlatCloud)
+{
+  made::Random random(8);
+  std::vector<double> flat;
+  for (int patch = 0; patch < 5; ++patch) {
+    const double x0 = random.uniform(-1, 1), y0 = random.uniform(-1, 1);
+    const double width = random.uniform(0.3, 1), height = random.uniform(0.3, 1);
+    for (int i = 0; i < 400; ++i) {
+      const double x = random.uniform(0, width), y = random.uniform(0, height);
+      flat.insert(flat.end(), {x0 + x, y0 + y, 0});
+    }
+  }
+  ScanInput<double> input;
+  input.points.data = flat.data();
+  input.points.size = flat.size() / 3;
+  input.viewpoint = {0, 0, 3};
+  for (const bool known : {true, false}) {
+    input.viewpoint_known = known;
+    PairOptions options;
+    options.resolution = 0.05;
+    Pairs all;
+    for (std::size_t i = 0; i < flat.size(); i += 3)
+      all.add(Eigen::Vector3d(&flat[i]), Eigen::Vector3d(&flat[i]));
+    const CorrespondenceView<double> view{
+        all.source.data(), all.target.data(), all.source.size() / 3, nullptr};
+    const PairResult result =
+        PairRegistration(BackendKind::Cpu, 1).align(input, input, view, options);
+    EXPECT_EQ(result.pose.status, Status::Ok);
+    EXPECT_TRUE(result.pose.evidence.has_clouds);
+    EXPECT_LT(result.pose.evidence.stiffness, 1e-6);
+    EXPECT_FALSE(result.pose.converged);
+  }
+}
+
 TEST(Verdict, IsLimitedByEachOfItsNeeds)
 {
   Evidence evidence;
@@ -130,6 +165,22 @@ TEST(Verdict, IsLimitedByEachOfItsNeeds)
   worse = evidence;
   worse.log_chance = 0;
   EXPECT_LE(confidenceOf(worse), 0.5);
+
+  evidence.has_clouds = true;
+  evidence.agreement.matched = 0.9;
+  evidence.lead = 5;
+  evidence.stiffness = 0.02;
+  for (const bool viewpoints : {true, false})
+    for (const bool one : {true, false}) {
+      evidence.has_viewpoints = viewpoints;
+      evidence.one_viewpoint = one;
+      EXPECT_GT(confidenceOf(evidence), 0.95);
+      worse = evidence;
+      worse.stiffness = 0.0005;
+      EXPECT_LE(confidenceOf(worse), 0.5);
+      worse.stiffness = 0;
+      EXPECT_EQ(confidenceOf(worse), 0);
+    }
 }
 
 } // namespace

@@ -98,6 +98,14 @@ pairOptions(const Options& options)
 }
 
 void
+addFeatures(const FpfhTimings& timings, Run& run)
+{
+  run.times.voxel_grid += timings.voxel_grid;
+  run.times.normals += timings.normals;
+  run.times.features += timings.features;
+}
+
+void
 addEstimation(Run& run)
 {
   const StageTimings& stages = run.pair.timings.estimation;
@@ -115,13 +123,8 @@ runNative(const Side& source,
   const Stopwatch total;
   run.pair = registration.align(source.input, target.input, pairOptions(options));
   run.times.total = total.milliseconds();
-  for (const FeatureTimings* spent :
-       {&run.pair.timings.source, &run.pair.timings.target}) {
-    const FpfhTimings timings = detail::toFpfhTimings(*spent);
-    run.times.voxel_grid += timings.voxel_grid;
-    run.times.normals += timings.normals;
-    run.times.features += timings.features;
-  }
+  addFeatures(detail::toFpfhTimings(run.pair.timings.source), run);
+  addFeatures(detail::toFpfhTimings(run.pair.timings.target), run);
   run.times.matching = run.pair.timings.matching;
   addEstimation(run);
   return run;
@@ -144,9 +147,7 @@ runPcl(const Side& source,
                                     options.leaf,
                                     options.threads,
                                     &timings);
-    run.times.voxel_grid += timings.voxel_grid;
-    run.times.normals += timings.normals;
-    run.times.features += timings.features;
+    addFeatures(timings, run);
     ScanInput<float> input = (side == 0 ? source : target).input;
     detail::takeKeypoints(fpfh[side], input);
     scans[side] = registration.makeScan(input, options.leaf);

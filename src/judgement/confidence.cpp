@@ -50,6 +50,15 @@ fromCorrespondences(const Evidence& e)
   return std::min({p, limitByRival(e), limitByChance(e), limitByBreadth(e)});
 }
 
+/** \brief A pose that the surfaces leave free to move in some direction is not certain,
+ * whatever else speaks for it. */
+double
+limitByStiffness(const Evidence& e)
+{
+  const double sixth = std::pow(e.stiffness / 0.0005, 6);
+  return sixth / (1 + sixth);
+}
+
 double
 fromClouds(const Evidence& e)
 {
@@ -76,6 +85,14 @@ fromCloudsWithoutViewpoints(const Evidence& e)
                   1.92 * std::log(e.stiffness + 0.001));
 }
 
+double
+fittedToClouds(const Evidence& e)
+{
+  if (!e.has_viewpoints)
+    return fromCloudsWithoutViewpoints(e);
+  return e.one_viewpoint ? fromCloudsWithOneViewpoint(e) : fromClouds(e);
+}
+
 } // namespace
 
 double
@@ -83,10 +100,7 @@ confidenceOf(const Evidence& evidence)
 {
   if (!evidence.has_clouds)
     return fromCorrespondences(evidence);
-  if (!evidence.has_viewpoints)
-    return fromCloudsWithoutViewpoints(evidence);
-  return evidence.one_viewpoint ? fromCloudsWithOneViewpoint(evidence)
-                                : fromClouds(evidence);
+  return std::min(fittedToClouds(evidence), limitByStiffness(evidence));
 }
 
 } // namespace pcl_flashreg
