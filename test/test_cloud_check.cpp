@@ -372,6 +372,7 @@ TEST(Confidence, GrowsWithWhatSpeaksForAPose)
   evidence.thickness = 8;
   evidence.breadth = 16;
   evidence.log_chance = -100;
+  evidence.mirrored = -5;
   Evidence better = evidence;
   better.inliers = 120;
   EXPECT_GT(confidenceOf(better), confidenceOf(evidence));

@@ -5,6 +5,7 @@
 
 #include "judgement/confidence.h"
 #include "support/made_correspondences.h"
+#include "support/made_scans.h"
 
 #include <pcl_flashreg/pair_registration.h>
 
@@ -112,6 +113,59 @@ TEST(Verdict, DoesNotTrustChance)
   EXPECT_LT(result.evidence.log_chance, -50);
 }
 
+/** \brief What a flipped axis leaves of a scan. */
+std::vector<double>
+mirrored(std::vector<double> xyz, std::size_t axis)
+{
+  for (std::size_t i = axis; i < xyz.size(); i += 3)
+    xyz[i] = -xyz[i];
+  return xyz;
+}
+
+TEST(Verdict, DoesNotTrustAMirroredCloud)
+{
+  const made::RoomScans room;
+  PairRegistration registration(BackendKind::Cpu, 2);
+  for (const double resolution : {0.07, 0.1})
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::vector<double> flipped = mirrored(room.source, axis);
+      Eigen::Vector3d viewpoint = room.source_viewpoint;
+      viewpoint[static_cast<Eigen::Index>(axis)] *= -1;
+      ScanInput<double> source = made::RoomScans::inputOf(flipped, viewpoint);
+      PairOptions options;
+      options.resolution = resolution;
+      for (const bool known : {true, false}) {
+        source.viewpoint_known = known;
+        const Result result =
+            registration.align(source, room.targetInput(), options).pose;
+        EXPECT_FALSE(result.converged) << axis << ' ' << result.confidence;
+        EXPECT_GT(result.evidence.mirrored, 2) << axis;
+      }
+    }
+  PairOptions options;
+  options.resolution = 0.1;
+  const Result right =
+      registration.align(room.sourceInput(), room.targetInput(), options).pose;
+  EXPECT_TRUE(right.converged);
+  EXPECT_LT(right.evidence.mirrored, -2);
+}
+
+TEST(Verdict, FindsTheReflectionOfCorrespondences)
+{
+  made::Random random(4);
+  Pairs pairs;
+  for (int i = 0; i < 300; ++i) {
+    Eigen::Vector3d s = random.inCube(1);
+    const Eigen::Vector3d t = random.inCube(1);
+    pairs.add(s,
+              i % 3 ? t
+                    : Eigen::Vector3d(truth() * Eigen::Vector3d(-s.x(), s.y(), s.z())));
+  }
+  const Result result = pairs.estimate(0.02);
+  EXPECT_FALSE(result.converged);
+  EXPECT_GT(result.evidence.mirrored, 7) << "all hundred, but for what lies in a plane";
+}
+
 /** \brief Rectangles on a floor, seen from above: nothing but correspondences holds a pose. */
 TEST(Verdict, DoesNotTrustAFlatCloud)
 {
@@ -154,6 +208,7 @@ TEST(Verdict, IsLimitedByEachOfItsNeeds)
   evidence.inlier_ratio = 0.2;
   evidence.thickness = evidence.breadth = 20;
   evidence.log_chance = -300;
+  evidence.mirrored = -5;
   const double p = confidenceOf(evidence);
   EXPECT_GT(p, 0.95);
   Evidence worse = evidence;
@@ -164,6 +219,9 @@ TEST(Verdict, IsLimitedByEachOfItsNeeds)
   EXPECT_LE(confidenceOf(worse), 0.5);
   worse = evidence;
   worse.log_chance = 0;
+  EXPECT_LE(confidenceOf(worse), 0.5);
+  worse = evidence;
+  worse.mirrored = 1.2;
   EXPECT_LE(confidenceOf(worse), 0.5);
 
   evidence.has_clouds = true;
@@ -180,6 +238,9 @@ TEST(Verdict, IsLimitedByEachOfItsNeeds)
       EXPECT_LE(confidenceOf(worse), 0.5);
       worse.stiffness = 0;
       EXPECT_EQ(confidenceOf(worse), 0);
+      worse = evidence;
+      worse.mirrored = 1.2;
+      EXPECT_LE(confidenceOf(worse), 0.5);
     }
 }
 

@@ -69,7 +69,8 @@ evidenceOf(const Evidence& evidence)
                {"rival_inliers", evidence.rival_inliers},
                {"thickness", evidence.thickness},
                {"breadth", evidence.breadth},
-               {"log_chance", evidence.log_chance}};
+               {"log_chance", evidence.log_chance},
+               {"mirrored", evidence.mirrored}};
   if (evidence.has_clouds) {
     json["viewpoints"] = evidence.has_viewpoints;
     json["one_viewpoint"] = evidence.one_viewpoint;

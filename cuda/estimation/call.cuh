@@ -138,6 +138,8 @@ struct Call {
   // Stage 7: bit sets of `words` words.
   unsigned* candidate_inliers;
   unsigned* candidate_lists;
+  /** \brief LISTED_CLIQUES places; a score of 0 where there is none. */
+  Clique* listed_cliques;
   unsigned* listed_inliers;
   ScoredPose* listed;
 };

@@ -26,6 +26,14 @@ target(const Call& call, unsigned i)
   return {call.tx[i], call.ty[i], call.tz[i]};
 }
 
+__device__ inline bool
+holdsClique(const Call& call, unsigned slot)
+{
+  const unsigned p = slot / call.cliques_per_pivot;
+  return slot + 1 < call.slots && p < call.control->pivots &&
+         slot % call.cliques_per_pivot < call.clique_counts[p];
+}
+
 /** \return whether the slot holds a pose */
 __device__ inline bool
 poseOf(const Call& call, unsigned slot, Pose& pose)
@@ -34,9 +42,7 @@ poseOf(const Call& call, unsigned slot, Pose& pose)
     pose = call.guess;
     return call.has_guess;
   }
-  const unsigned p = slot / call.cliques_per_pivot;
-  if (p >= call.control->pivots ||
-      slot % call.cliques_per_pivot >= call.clique_counts[p])
+  if (!holdsClique(call, slot))
     return false;
   const Clique c = call.cliques[slot];
   const Vec3 s[3] = {source(call, c.u), source(call, c.v), source(call, c.w)};
@@ -52,6 +58,8 @@ __launch_bounds__(WARP) alignCliques(const Call call)
   const unsigned slot = blockIdx.x * WARP + threadIdx.x;
   if (slot >= call.slots)
     return;
+  if (slot < LISTED_CLIQUES)
+    call.listed_cliques[slot] = holdsClique(call, slot) ? call.cliques[slot] : Clique{};
   Pose pose;
   const bool valid = poseOf(call, slot, pose);
   call.scores[slot] = valid ? 0 : -1;

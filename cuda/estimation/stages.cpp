@@ -163,8 +163,9 @@ Stages::reserveReport()
   control_offset_ = roundUp(bins * sizeof(unsigned), line);
   cleared_bytes_ = control_offset_ + sizeof(Control);
   listed_offset_ = roundUp(sizeof(Control), line);
-  inliers_offset_ =
+  cliques_offset_ =
       roundUp(listed_offset_ + call_.max_hypotheses * sizeof(ScoredPose), line);
+  inliers_offset_ = roundUp(cliques_offset_ + LISTED_CLIQUES * sizeof(Clique), line);
   const std::size_t set_bytes = call_.words * sizeof(unsigned);
   read_bytes_ = inliers_offset_ + set_bytes;
   report_.reserve(control_offset_ + inliers_offset_ + call_.max_hypotheses * set_bytes);
@@ -173,6 +174,7 @@ Stages::reserveReport()
   call_.histogram = reinterpret_cast<unsigned*>(report_.data());
   call_.control = reinterpret_cast<Control*>(control);
   call_.listed = reinterpret_cast<ScoredPose*>(control + listed_offset_);
+  call_.listed_cliques = reinterpret_cast<Clique*>(control + cliques_offset_);
   call_.listed_inliers = reinterpret_cast<unsigned*>(control + inliers_offset_);
 }
 
@@ -324,6 +326,11 @@ Stages::result() const
     return estimate;
   estimate.status = Status::Ok;
   estimate.hypotheses.assign(listed, listed + c.listed_count);
+  const auto* cliques =
+      reinterpret_cast<const Clique*>(host_report_.data() + cliques_offset_);
+  for (unsigned slot = 0; slot < std::min(LISTED_CLIQUES, call_.slots); ++slot)
+    if (cliques[slot].score > 0)
+      estimate.cliques.push_back(cliques[slot]);
   const auto* inliers =
       reinterpret_cast<const unsigned*>(host_report_.data() + inliers_offset_);
   estimate.inliers.reserve(static_cast<std::size_t>(listed[0].inlier_count));

@@ -158,7 +158,7 @@ private:
   DeviceBuffer<unsigned char> report_;
   PinnedBuffer<unsigned char> host_report_;
   std::size_t cleared_bytes_ = 0, control_offset_ = 0, read_bytes_ = 0;
-  std::size_t listed_offset_ = 0, inliers_offset_ = 0;
+  std::size_t listed_offset_ = 0, cliques_offset_ = 0, inliers_offset_ = 0;
 };
 
 } // namespace cuda

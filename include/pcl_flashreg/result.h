@@ -91,6 +91,9 @@ struct Evidence {
   /** \brief Logarithm of how many poses would have as many inliers, were the same points
    * paired at random: 0 is what chance gives. An upper bound (see docs/method.md). */
   double log_chance = 0;
+  /** \brief By how many standard deviations a reflection of the source explains the
+   * correspondences better than a motion: clearly above 0 if one of the clouds is mirrored. */
+  double mirrored = 0;
 
   /** \brief Whether the clouds were asked: the rest is 0 where not. */
   bool has_clouds = false;

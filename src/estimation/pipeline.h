@@ -26,6 +26,10 @@ struct PoseEstimate {
   /** \brief Every hypothesis that was verified, as it was, in clique order and the guess
    * last; empty unless asked for. */
   std::vector<Pose> candidates;
+  /** \brief Cliques of the best pivots, for what poses don't say: those in the first
+   * LISTED_CLIQUES places, of which each pivot has Parameters::cliques_per_pivot. Empty unless
+   * status is Ok. */
+  std::vector<Clique> cliques;
 };
 
 /** \brief The method, once for every backend (docs/method.md): stages 1 to 7.

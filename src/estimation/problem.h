@@ -65,6 +65,9 @@ struct Clique {
   std::uint32_t score;
 };
 
+/** \brief See PoseEstimate::cliques. */
+constexpr unsigned LISTED_CLIQUES = 64;
+
 /** \brief A pose with what speaks for it, in the centred frames. */
 struct ScoredPose {
   Pose pose;

@@ -202,8 +202,8 @@ checkOnClouds(const SurfacePair& clouds,
   if (!clouds.seeing())
     return blind;
   CloudFindings seeing = judge(clouds, std::move(checked), half_side, true);
-  const double enough = std::max(BELIEVED_BLINDLY, confidenceOf(seeing.evidence));
-  return confidenceOf(blind.evidence) > enough ? blind : seeing;
+  const double enough = std::max(BELIEVED_BLINDLY, confidenceOfClouds(seeing.evidence));
+  return confidenceOfClouds(blind.evidence) > enough ? blind : seeing;
 }
 
 } // namespace pcl_flashreg

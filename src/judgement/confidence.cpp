@@ -50,6 +50,13 @@ fromCorrespondences(const Evidence& e)
   return std::min({p, limitByRival(e), limitByChance(e), limitByBreadth(e)});
 }
 
+/** \brief Where a reflection explains more than any motion, no motion is right. */
+double
+limitByMirror(const Evidence& e)
+{
+  return logistic(3 * (1.2 - e.mirrored));
+}
+
 /** \brief A pose that the surfaces leave free to move in some direction is not certain,
  * whatever else speaks for it. */
 double
@@ -96,11 +103,17 @@ fittedToClouds(const Evidence& e)
 } // namespace
 
 double
+confidenceOfClouds(const Evidence& evidence)
+{
+  return std::min(fittedToClouds(evidence), limitByStiffness(evidence));
+}
+
+double
 confidenceOf(const Evidence& evidence)
 {
-  if (!evidence.has_clouds)
-    return fromCorrespondences(evidence);
-  return std::min(fittedToClouds(evidence), limitByStiffness(evidence));
+  return std::min(evidence.has_clouds ? confidenceOfClouds(evidence)
+                                      : fromCorrespondences(evidence),
+                  limitByMirror(evidence));
 }
 
 } // namespace pcl_flashreg

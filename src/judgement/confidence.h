@@ -13,4 +13,8 @@ namespace pcl_flashreg {
 double
 confidenceOf(const Evidence& evidence);
 
+/** \brief The same before it is known what a reflection would explain. */
+double
+confidenceOfClouds(const Evidence& evidence);
+
 } // namespace pcl_flashreg

@@ -5,6 +5,7 @@
 
 #include "judgement/confidence.h"
 #include "judgement/evidence.h"
+#include "judgement/mirror.h"
 #include "estimation/information.h"
 #include "registration/choose_backend.h"
 
@@ -212,9 +213,17 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
                                           screen,
                                           clock,
                                           trace_);
+    std::vector<Pose> motions;
+    if (estimate.status == Status::Ok)
+      motions.push_back(estimate.hypotheses.front().pose);
     CloudFindings findings;
     if (clouds && estimate.status == Status::Ok)
       askClouds(prepareClouds(*clouds), parameters, estimate, findings);
+    if (estimate.status == Status::Ok) {
+      motions.push_back(estimate.hypotheses.front().pose);
+      findings.evidence.mirrored = mirroredEvidence(
+          problem_, estimate.cliques, motions, parameters.inlier_distance, pool_);
+    }
     fill(result, estimate, findings, parameters);
     clock.finish(&StageTimings::cloud_check);
   }

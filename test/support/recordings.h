@@ -85,6 +85,7 @@ expectSame(const Recording& expected, const Recording& found)
   }
 
   EXPECT_EQ(expected.estimate.status, found.estimate.status);
+  EXPECT_TRUE(sameBytes(expected.estimate.cliques, found.estimate.cliques));
   EXPECT_EQ(expected.estimate.second_order, found.estimate.second_order);
   EXPECT_EQ(expected.estimate.inliers, found.estimate.inliers);
   ASSERT_EQ(expected.estimate.candidates.size(), found.estimate.candidates.size());

@@ -102,7 +102,8 @@ resultColumns()
           "lead",
           "stiffness",
           "breadth",
-          "log_chance"};
+          "log_chance",
+          "mirrored"};
 }
 
 std::vector<std::string>
@@ -150,7 +151,8 @@ resultCells(const Record& r)
                 toText(e.lead),
                 toText(e.stiffness),
                 toText(e.breadth),
-                toText(e.log_chance)});
+                toText(e.log_chance),
+                toText(e.mirrored)});
   return cells;
 }
 
@@ -204,6 +206,7 @@ recordFromCells(const std::vector<std::string>& cells)
   e.stiffness = reader.number();
   e.breadth = reader.number();
   e.log_chance = reader.number();
+  e.mirrored = reader.number();
   return r;
 }
 

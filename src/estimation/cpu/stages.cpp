@@ -68,6 +68,10 @@ Stages::result()
     return estimate;
   estimate.status = Status::Ok;
   estimate.hypotheses = listed_;
+  const std::size_t T = parameters_->cliques_per_pivot;
+  for (std::size_t slot = 0; slot < LISTED_CLIQUES && slot / T < pivots_.size(); ++slot)
+    if (slot % T < clique_counts_[slot / T])
+      estimate.cliques.push_back(clique_slots_[slot]);
   estimate.inliers.resize(listed_.front().inlier_count);
   listBits(listed_inliers_.data(),
            problem_->padded_size / WORD_BITS,
