@@ -132,6 +132,38 @@ TEST_F(CliCorrespondences, aGuessIsOneMoreHypothesis)
   expectFound(align(common + "wrong.txt"));
 }
 
+TEST_F(CliCorrespondences, whatAPoseLacksIsSaid)
+{
+  const auto said =
+      [&](const auto& source_of, const auto& target_of, const char* leaf) {
+        auto rows = text();
+        for (Eigen::Index i = 0; i < kPairs; ++i) {
+          put(rows, source_of(i), " ");
+          put(rows, target_of(i), "\n");
+        }
+        write("pairs.txt", rows.str());
+        const ProgramRun run =
+            align(std::string("--correspondences pairs.txt --leaf ") + leaf);
+        EXPECT_EQ(run.status, 1) << run.err;
+        return run.out;
+      };
+  const auto target = [&](Eigen::Index i) { return Eigen::Vector3d(target_.col(i)); };
+  const auto mirrored = [&](Eigen::Index i) {
+    return Eigen::Vector3d(-source_(0, i), source_(1, i), source_(2, i));
+  };
+  EXPECT_NE(said(mirrored, target, "0.05").find("mirror image"), std::string::npos);
+
+  made::Random random(2);
+  const auto on_a_line = [&](Eigen::Index i) {
+    const double x = random.normal(), y = random.normal();
+    return Eigen::Vector3d(0.003 * x, 0.003 * y, 0.01 * static_cast<double>(i));
+  };
+  EXPECT_NE(said(on_a_line, on_a_line, "0.05").find("on a line"), std::string::npos);
+
+  const auto anywhere = [&](Eigen::Index) { return random.inCube(1); };
+  EXPECT_NE(said(anywhere, anywhere, "0.1").find("by chance"), std::string::npos);
+}
+
 TEST_F(CliCorrespondences, descriptorsFromFiles)
 {
   // A descriptor that is different for every point, the same on both sides.

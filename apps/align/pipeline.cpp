@@ -270,6 +270,9 @@ stepsOf(const Outcome& outcome)
   const auto both = [&](double FeatureTimings::*step) {
     return t.source.*step + t.target.*step;
   };
+  // Without clouds this is the time of the verdict alone.
+  const double cloud_check =
+      outcome.pair.pose.evidence.has_clouds ? t.estimation.cloud_check : 0;
   std::vector<Step> steps = {
       {"reading", outcome.reading_ms},
       {"setup", outcome.setup_ms},
@@ -281,8 +284,8 @@ stepsOf(const Outcome& outcome)
        both(&FeatureTimings::point_histograms) +
            both(&FeatureTimings::feature_histograms)},
       {"matching", t.matching},
-      {"pose", t.estimation.total - t.estimation.cloud_check, true},
-      {"cloud check", t.estimation.cloud_check, true}};
+      {"pose", t.estimation.total - cloud_check, true},
+      {"cloud check", cloud_check, true}};
   double rest = outcome.total_ms;
   for (const Step& step : steps)
     rest -= step.milliseconds;

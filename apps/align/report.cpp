@@ -83,6 +83,21 @@ formatTimes(const Outcome& outcome)
   return text + line + '\n';
 }
 
+/** \brief What a pose lacks that every pose needs; empty if that is not known. */
+std::string
+formatWant(const Evidence& evidence)
+{
+  // Where the confidence is at most an even chance (docs/method.md).
+  constexpr double MIRRORED = 1.2, FREE = 0.0005, NARROW = 1;
+  if (evidence.mirrored > MIRRORED)
+    return "a mirror image explains the correspondences better: is an axis flipped?";
+  if (evidence.has_clouds)
+    return evidence.stiffness < FREE ? "the surfaces leave it free to move" : "";
+  if (evidence.breadth < NARROW)
+    return "those that agree lie on a line, about which it may turn";
+  return evidence.log_chance > 0 ? "as many would agree by chance" : "";
+}
+
 } // namespace
 
 std::string
@@ -99,8 +114,10 @@ formatVerdict(const Outcome& outcome)
   evidence += ", confidence " + rounded(result.confidence, 2);
   if (result.converged)
     return "pose found and trusted: " + evidence;
+  const std::string want = formatWant(result.evidence);
   return "pose found, but NOT trusted: " + evidence +
-         " (needed: " + rounded(outcome.pair.parameters.min_confidence, 2) + ")";
+         " (needed: " + rounded(outcome.pair.parameters.min_confidence, 2) + ")" +
+         (want.empty() ? "" : "; " + want);
 }
 
 std::string

@@ -71,7 +71,8 @@ reflectionOf(const Problem& problem, const Clique& clique, Pose& reflection)
   if (!alignTriplet(s, t, T))
     return false;
   const Vec3 across = cross(s[1] - s[0], s[2] - s[0]);
-  reflection = afterReflection(T, {(1 / std::sqrt(dot(across, across))) * across, s[0]});
+  reflection =
+      afterReflection(T, {(1 / std::sqrt(dot(across, across))) * across, s[0]});
   return true;
 }
 
