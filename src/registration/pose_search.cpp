@@ -213,14 +213,13 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
                                           screen,
                                           clock,
                                           trace_);
-    std::vector<Pose> motions;
-    if (estimate.status == Status::Ok)
-      motions.push_back(estimate.hypotheses.front().pose);
     CloudFindings findings;
-    if (clouds && estimate.status == Status::Ok)
-      askClouds(prepareClouds(*clouds), parameters, estimate, findings);
     if (estimate.status == Status::Ok) {
-      motions.push_back(estimate.hypotheses.front().pose);
+      std::vector<Pose> motions{estimate.hypotheses.front().pose};
+      if (clouds)
+        askClouds(prepareClouds(*clouds), parameters, estimate, findings);
+      if (findings.evidence.has_clouds)
+        motions.push_back(estimate.hypotheses.front().pose);
       findings.evidence.mirrored = mirroredEvidence(
           problem_, estimate.cliques, motions, parameters.inlier_distance, pool_);
     }
