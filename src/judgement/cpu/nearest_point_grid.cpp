@@ -3,65 +3,88 @@
 
 #include "judgement/cpu/nearest_point_grid.h"
 
+#include <array>
+#include <limits>
+
 namespace pcl_flashreg {
 namespace {
 
 /** \brief Cells that a point is entered into reach from its own cell to here, squared. */
 constexpr int SQUARED_REACH = 5;
+constexpr std::size_t CELLS_IN_REACH = 57;
 
-/** \brief Cells of a point on a surface, for a first guess of the table's size. */
-constexpr std::size_t CELLS_A_POINT = 8;
+constexpr std::size_t MIN_SLOTS = 64;
+
+std::array<Eigen::Vector3i, CELLS_IN_REACH>
+cellsInReach()
+{
+  std::array<Eigen::Vector3i, CELLS_IN_REACH> cells;
+  std::size_t count = 0;
+  for (int x = -2; x <= 2; ++x)
+    for (int y = -2; y <= 2; ++y)
+      for (int z = -2; z <= 2; ++z)
+        if (x * x + y * y + z * z <= SQUARED_REACH)
+          cells[count++] = {x, y, z};
+  return cells;
+}
 
 } // namespace
 
 void
-NearestPointGrid::resize(std::size_t capacity)
+NearestPointGrid::grow()
 {
-  std::vector<Cell> old(capacity, Cell{FREE, -1});
-  old.swap(cells_);
-  for (const Cell& cell : old)
-    if (cell.key != FREE)
-      cells_[slotOf(cell.key)] = cell;
+  std::vector<Block> old(2 * blocks_.size());
+  old.swap(blocks_);
+  for (const Block& block : old)
+    if (block.key != FREE)
+      blocks_[slotOf(block.key)] = block;
 }
 
-void
-NearestPointGrid::enter(int point,
-                        const Eigen::Vector3f& place,
-                        const Eigen::Vector3i& cell)
+/** \return first cell of the block, which is made if it is not there yet */
+std::size_t
+NearestPointGrid::blockOf(std::uint64_t key)
 {
-  const std::uint64_t key = keyOf(cell);
-  Cell& entry = cells_[slotOf(key)];
-  if (entry.key == FREE) {
-    entry = {key, point};
-    if (2 * ++used_ > cells_.size())
-      resize(2 * cells_.size());
-    return;
-  }
-  const Eigen::Vector3f centre =
-      side_ * (cell.cast<float>() + Eigen::Vector3f::Constant(0.5f));
-  if ((place - centre).squaredNorm() < ((*points_)[entry.point] - centre).squaredNorm())
-    entry.point = point;
+  const std::size_t slot = slotOf(key);
+  if (blocks_[slot].key == key)
+    return blocks_[slot].first_cell;
+  const std::size_t first = cells_.size();
+  blocks_[slot] = {key, first};
+  cells_.resize(first + CELLS_A_BLOCK, -1);
+  distances_.resize(first + CELLS_A_BLOCK, std::numeric_limits<float>::infinity());
+  if (2 * ++used_ > blocks_.size())
+    grow();
+  return first;
 }
 
 void
 NearestPointGrid::build(const std::vector<Eigen::Vector3f>& points, float side)
 {
-  points_ = &points;
+  static const std::array<Eigen::Vector3i, CELLS_IN_REACH> reach = cellsInReach();
   side_ = side;
   inverse_side_ = 1 / side;
   used_ = 0;
-  cells_.clear();
-  std::size_t capacity = 1024;
-  while (capacity < 2 * CELLS_A_POINT * points.size())
-    capacity *= 2;
-  resize(capacity);
+  blocks_.assign(MIN_SLOTS, Block{});
+  cells_.assign(CELLS_A_BLOCK, -1);
+  distances_.assign(CELLS_A_BLOCK, 0);
+  std::uint64_t last = FREE;
+  std::size_t first = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3i own = cellOf(points[i]);
-    for (int x = -2; x <= 2; ++x)
-      for (int y = -2; y <= 2; ++y)
-        for (int z = -2; z <= 2; ++z)
-          if (x * x + y * y + z * z <= SQUARED_REACH)
-            enter(static_cast<int>(i), points[i], own + Eigen::Vector3i(x, y, z));
+    for (const Eigen::Vector3i& step : reach) {
+      const Eigen::Vector3i cell = own + step;
+      if (const std::uint64_t key = keyOf(cell); key != last) {
+        first = blockOf(key);
+        last = key;
+      }
+      const std::size_t at = first + offsetOf(cell);
+      const Eigen::Vector3f centre =
+          side_ * (cell.cast<float>() + Eigen::Vector3f::Constant(0.5f));
+      const float squared = (points[i] - centre).squaredNorm();
+      if (squared < distances_[at]) {
+        distances_[at] = squared;
+        cells_[at] = static_cast<int>(i);
+      }
+    }
   }
 }
 

@@ -11,16 +11,17 @@
 
 namespace pcl_flashreg {
 
-/** \brief Which point of a cloud is near a place, by one look-up.
+/** \brief Which point of a cloud is near a place, by two look-ups.
  *
- * A hash of cubic cells; every point is entered into its own cell and into those around
- * it, and a cell keeps the point nearest to its centre. So the answer is the nearest point
- * to within about the side of a cell, and there is one for every place within 1.4 sides
+ * Cubic cells, in blocks of 8 x 8 x 8 where there are points, and a hash of the blocks, which
+ * stays in the innermost cache. Every point is entered into its own cell and into those
+ * around it, and a cell keeps the point nearest to its centre. So the answer is the nearest
+ * point to within about the side of a cell, and there is one for every place within 1.4 sides
  * of a point.
  */
 class NearestPointGrid {
 public:
-  /** \param[in] points finite; the caller keeps them
+  /** \param[in] points finite
    * \param[in] side of a cell, > 0 */
   void
   build(const std::vector<Eigen::Vector3f>& points, float side);
@@ -29,19 +30,22 @@ public:
   int
   find(const Eigen::Vector3f& place) const
   {
-    return cells_[slotOf(keyOf(cellOf(place)))].point;
+    const Eigen::Vector3i cell = cellOf(place);
+    return cells_[blocks_[slotOf(keyOf(cell))].first_cell + offsetOf(cell)];
   }
 
 private:
-  struct Cell {
-    std::uint64_t key;
-    int point;
-  };
-
-  /** \brief Marks a slot that no cell is in. */
+  static constexpr int SHIFT = 3, EDGE = 1 << SHIFT;
+  static constexpr std::size_t CELLS_A_BLOCK = EDGE * EDGE * EDGE;
+  /** \brief Marks a slot that no block is in; its cells are those of the empty block 0. */
   static constexpr std::uint64_t FREE = ~std::uint64_t{0};
   /** \brief Cells an axis that a key has room for, to either side of the origin. */
   static constexpr int HALF_RANGE = 1 << 20;
+
+  struct Block {
+    std::uint64_t key = FREE;
+    std::size_t first_cell = 0;
+  };
 
   /** \brief Places far outside are in a border cell, where a stray point does no harm. */
   int
@@ -61,33 +65,49 @@ private:
     return {cellOf(place.x()), cellOf(place.y()), cellOf(place.z())};
   }
 
+  /** \brief Of the block that the cell is in. */
   static std::uint64_t
   keyOf(const Eigen::Vector3i& cell)
   {
-    const auto part = [](int x) { return static_cast<std::uint64_t>(x + HALF_RANGE); };
+    const auto part = [](int x) {
+      return static_cast<std::uint64_t>((x + HALF_RANGE) >> SHIFT);
+    };
     return (part(cell.x()) << 42) | (part(cell.y()) << 21) | part(cell.z());
   }
 
-  /** \brief Where the key stands, or would have to be put. */
+  /** \brief Of the cell in its block. */
+  static std::size_t
+  offsetOf(const Eigen::Vector3i& cell)
+  {
+    constexpr int mask = EDGE - 1;
+    return static_cast<std::size_t>(
+        (((cell.x() & mask) << SHIFT | (cell.y() & mask)) << SHIFT) |
+        (cell.z() & mask));
+  }
+
+  /** \brief Where the block stands, or would have to be put. */
   std::size_t
   slotOf(std::uint64_t key) const
   {
-    const std::size_t mask = cells_.size() - 1;
+    const std::size_t mask = blocks_.size() - 1;
     std::size_t slot = ((key * 0x9E3779B97F4A7C15ull) >> 32) & mask;
-    while (cells_[slot].key != FREE && cells_[slot].key != key)
+    while (blocks_[slot].key != FREE && blocks_[slot].key != key)
       slot = (slot + 1) & mask;
     return slot;
   }
 
   void
-  resize(std::size_t capacity);
-  void
-  enter(int point, const Eigen::Vector3f& place, const Eigen::Vector3i& cell);
+  grow();
+  std::size_t
+  blockOf(std::uint64_t key);
 
-  const std::vector<Eigen::Vector3f>* points_ = nullptr;
   float side_ = 1, inverse_side_ = 1;
-  std::vector<Cell> cells_;
+  std::vector<Block> blocks_;
   std::size_t used_ = 0;
+  /** \brief Points, block by block; -1 where there is none. */
+  std::vector<int> cells_;
+  /** \brief Squared distance of the point to the centre of its cell; for building alone. */
+  std::vector<float> distances_;
 };
 
 } // namespace pcl_flashreg
