@@ -5,23 +5,38 @@
 
 Reads CSV files of the methods flashreg_fast, flashreg, flashreg_source_viewpoint and
 flashreg_no_viewpoint. Four logistic regressions: correspondences alone, clouds with both
-viewpoints, with one, without. Cross-validated by scene: a pair is judged by coefficients that no pair with a
-cloud of its source's scene had a part in. Needs numpy; --plot also matplotlib.
+viewpoints, with one, without, each times what every pose needs. Cross-validated by scene: a
+pair is judged by coefficients that no pair with a cloud of its source's scene had a part in. Needs numpy; --plot also matplotlib.
 
     scripts/fit_confidence.py correspondences.csv clouds.csv clouds_without_viewpoints.csv
 """
 
 import argparse
 import csv
+import json
 import os
 
 import numpy as np
 
 THRESHOLDS = (0.5, 0.6, 0.7, 0.8, 0.9)
+# Parameters::min_confidence
+THRESHOLD = 0.6
+SENSORS = {
+    "rooms, depth camera, fused (3DMatch)": ["3DMatch", "3DMatch_raw"],
+    "the same, less overlap (3DLoMatch)": ["3DLoMatch"],
+    "depth cameras, single frames": ["UR5_D435_tabletop", "ICL_NUIM", "slambook_kinect"],
+    "spinning lidar": ["KITTI_10m_corr", "KITTI_raw", "NCLT", "Indoor16line_rotating", "fast_gicp"],
+    "handheld lidar": ["Hilti14_basement", "BALM"],
+    "objects": ["stanford_bunny", "pcl_tutorials"],
+}
 # A row of the table of calibration is this wide.
 BINS = np.array([0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 1])
 # Weight of the penalty on the coefficients, the constant excepted.
 RIDGE = 1.0
+
+
+def hold(row):
+    return min(2.0, max(-1.0, row["hold"]))
 
 
 def features_of_correspondences(row):
@@ -35,31 +50,57 @@ def features_of_correspondences(row):
 
 
 def features_of_clouds(row):
+    matched = row["matched"] + 0.01
     return [
-        np.log(row["matched"] + 0.01),
-        np.log(row["contradicted"] + 0.01),
+        np.log(matched),
+        np.log(row["contradicted"] / matched + 0.01),
         np.log(row["inliers"] + 5),
         row["lead"],
         np.log(row["stiffness"] + 0.001),
+        hold(row),
     ]
 
 
 def features_without_viewpoints(row):
-    features = features_of_clouds(row)
-    return features[:1] + features[2:]
+    return features_of_clouds(row)[2:] + [row["residual"]]
 
 
-def limit_by_rival(row):
-    """What src/judgement/confidence.cpp puts above a verdict from correspondences alone."""
+def logistic(x):
+    return 1 / (1 + np.exp(-np.clip(x, -50, 50)))
+
+
+def half_at(value, half, power):
+    scaled = (value / half) ** power
+    return scaled / (1 + scaled)
+
+
+# What src/judgement/confidence.cpp multiplies the regressions with.
+
+
+def needed_of_correspondences(row):
     ratio = row["rival_inliers"] / max(1.0, row["inliers"])
-    return 1 / (1 + ratio**4)
+    return (
+        1 / (1 + ratio**4)
+        * logistic(-row["log_chance"])
+        * half_at(row["breadth"], 1, 4)
+        * logistic(3 * (1.2 - row["mirrored"]))
+    )
+
+
+def needed_of_clouds(row):
+    return (
+        1 / (1 + row["rivals"])
+        * logistic(8 * (row["hold"] - 0.2))
+        * half_at(row["stiffness"], 0.004, 4)
+        * logistic(3 * (1.2 - row["mirrored"]))
+    )
 
 
 MODELS = {
-    "correspondences": (features_of_correspondences, limit_by_rival),
-    "clouds with viewpoints": (features_of_clouds, None),
-    "clouds with one viewpoint": (features_of_clouds, None),
-    "clouds without viewpoints": (features_without_viewpoints, None),
+    "correspondences": (features_of_correspondences, needed_of_correspondences),
+    "clouds with viewpoints": (features_of_clouds, needed_of_clouds),
+    "clouds with one viewpoint": (features_without_viewpoints, needed_of_clouds),
+    "clouds without viewpoints": (features_without_viewpoints, needed_of_clouds),
 }
 
 
@@ -90,7 +131,8 @@ def scene_of(path):
 def read(path):
     rows = []
     with open(path, newline="") as file:
-        for cells in csv.DictReader(line for line in file if line[0] != "#"):
+        limits = json.loads(file.readline().lstrip("# "))
+        for cells in csv.DictReader(file):
             row = {}
             for name, text in cells.items():
                 try:
@@ -100,37 +142,47 @@ def read(path):
             if row["method"] != METHOD_OF[model_of(row)]:
                 continue  # another method, or one that lacked what it is for
             row["scenes"] = {scene_of(row["source"]), scene_of(row["target"])}
+            # Not grossly wrong: within twice what is right.
+            row["near"] = row["success"] or (
+                isinstance(row["rotation_error_deg"], float)
+                and row["rotation_error_deg"] < 2 * limits["max_rotation_deg"]
+                and row["translation_error"] < 2 * limits["max_translation"]
+            )
             rows.append(row)
     return rows
 
 
-def fit(x, y):
-    """Logistic regression by Newton's method; the constant comes first."""
+def fit(x, y, needed, start=None):
+    """Maximum likelihood of p = needed * logistic(constant + x . coefficients), by scoring."""
     x = np.column_stack([np.ones(len(x)), x])
     penalty = RIDGE * np.eye(x.shape[1])
     penalty[0, 0] = 1e-6
-    coefficients = np.zeros(x.shape[1])
-    for _ in range(100):
-        p = 1 / (1 + np.exp(-x @ coefficients))
-        gradient = x.T @ (y - p) - penalty @ coefficients
-        hessian = (x * (p * (1 - p))[:, None]).T @ x + penalty
+    coefficients = np.zeros(x.shape[1]) if start is None else start.copy()
+    for _ in range(500):
+        s = logistic(x @ coefficients)
+        p = np.clip(needed * s, 1e-12, 1 - 1e-9)
+        slope = needed * s * (1 - s)
+        gradient = x.T @ ((y - p) * slope / (p * (1 - p))) - penalty @ coefficients
+        hessian = (x * (slope**2 / (p * (1 - p)))[:, None]).T @ x + penalty
         step = np.linalg.solve(hessian, gradient)
-        coefficients += step
-        if np.abs(step).max() < 1e-9:
+        largest = np.abs(step).max()
+        coefficients += step * min(1, 1 / largest)
+        if largest < 1e-7:
             break
     return coefficients
 
 
-def predict(coefficients, x):
-    return 1 / (1 + np.exp(-(coefficients[0] + x @ coefficients[1:])))
+def predict(coefficients, x, needed):
+    return needed * logistic(coefficients[0] + x @ coefficients[1:])
 
 
-def cross_validate(rows, x, y):
+def cross_validate(rows, x, y, needed, start):
     p = np.zeros(len(rows))
     for scene in sorted({scene_of(row["source"]) for row in rows}):
         apart = np.array([scene not in row["scenes"] for row in rows])
         here = np.array([scene == scene_of(row["source"]) for row in rows])
-        p[here] = predict(fit(x[apart], y[apart]), x[here])
+        coefficients = fit(x[apart], y[apart], needed[apart], start)
+        p[here] = predict(coefficients, x[here], needed[here])
     return p
 
 
@@ -138,20 +190,45 @@ def percent(part, whole):
     return 100.0 * part / whole if whole else float("nan")
 
 
-def print_table(p, y, datasets, without_overlap):
+def print_thresholds(p, y, near, datasets, without_overlap):
     truth = ~np.isin(datasets, without_overlap)
     accepted = [name for name in without_overlap if (datasets == name).any()]
-    print("| threshold | precision | recall of the right poses |", end="")
+    print("| threshold | trusted that are right | not grossly wrong | right that are trusted |", end="")
     print("".join(" accepted of %s |" % name for name in accepted))
-    print("|---" * (3 + len(accepted)) + "|")
+    print("|---" * (4 + len(accepted)) + "|")
     for threshold in THRESHOLDS:
         yes = p >= threshold
         shares = [
             percent((yes & y & truth).sum(), (yes & truth).sum()),
+            percent((yes & near & truth).sum(), (yes & truth).sum()),
             percent((yes & y).sum(), y.sum()),
         ] + [percent(yes[datasets == name].sum(), (datasets == name).sum()) for name in accepted]
         print("| %.2f |" % threshold + "".join(" %.2f %% |" % share for share in shares))
     print()
+
+
+def print_sensors(p, y, near, datasets):
+    print("| sensor | pairs | right | trusted that are right | not grossly wrong | right that are trusted |")
+    print("|---|---|---|---|---|---|")
+    for sensor, names in SENSORS.items():
+        here = np.isin(datasets, names)
+        yes = here & (p >= THRESHOLD)
+        if here.any():
+            print(
+                "| %s | %d | %.1f %% | %.2f %% | %.2f %% | %.1f %% |"
+                % (
+                    sensor,
+                    here.sum(),
+                    percent((here & y).sum(), here.sum()),
+                    percent((yes & y).sum(), yes.sum()),
+                    percent((yes & near).sum(), yes.sum()),
+                    percent((yes & y).sum(), (here & y).sum()),
+                )
+            )
+    print()
+
+
+def print_calibration(p, y):
     print("| confidence | pairs | mean | right |")
     print("|---|---|---|---|")
     for low, high in zip(BINS[:-1], BINS[1:]):
@@ -200,7 +277,7 @@ def main():
 
     rows = [row for path in options.rows for row in read(path)]
     curves = {}
-    for name, (features, limit) in MODELS.items():
+    for name, (features, needed_of) in MODELS.items():
         mine = [row for row in rows if model_of(row) == name]
         if not mine:
             continue
@@ -208,13 +285,15 @@ def main():
         y = np.array([row["success"] for row in mine]) > 0
         datasets = np.array([row["dataset"] for row in mine])
         truth = ~np.isin(datasets, options.without_overlap)
-        p = cross_validate(mine, x, y)
-        if limit:
-            p = np.minimum(p, [limit(row) for row in mine])
-        final = fit(x, y)
+        needed = np.array([needed_of(row) for row in mine])
+        near = np.array([bool(row["near"]) for row in mine])
+        final = fit(x, y, needed)
+        p = cross_validate(mine, x, y, needed, final)
         print("## %s: %d pairs, %d of them without overlap\n" % (name, len(y), (~truth).sum()))
         print("coefficients: " + ", ".join("%.2f" % c for c in final) + "\n")
-        print_table(p, y, datasets, options.without_overlap)
+        print_thresholds(p, y, near, datasets, options.without_overlap)
+        print_sensors(p, y, near, datasets)
+        print_calibration(p, y)
         curves[name] = (p, y, truth)
     if options.plot:
         plot(curves, options.plot)

@@ -34,7 +34,13 @@ evaluate kitti "$data/pairs.tsv" 0.3 5 0.6 KITTI_10m_corr KITTI_raw
 evaluate none_outdoors "$out/none_outdoors.tsv" 0.3 5 0.6
 evaluate balm "$data/pairs.tsv" 0.25 5 0.6 BALM
 evaluate bunny "$data/pairs.tsv" 0.0025 10 0.02 stanford_bunny
+evaluate nclt "$data/pairs.tsv" 0.3 5 0.6 NCLT
+evaluate lidar "$data/pairs.tsv" 0.1 5 0.3 Hilti14_basement Indoor16line_rotating
+evaluate table "$data/pairs.tsv" 0.006 5 0.03 UR5_D435_tabletop
+evaluate icl "$data/pairs.tsv" 0.025 5 0.15 ICL_NUIM
+evaluate kinect "$data/pairs.tsv" 0.04 5 0.2 slambook_kinect
 evaluate others "$data/pairs.tsv" 0.1 5 0.3 pcl_tutorials fast_gicp
 
 python3 "$here/fit_confidence.py" \
-  "$out"/{indoor,none,kitti,none_outdoors,balm,bunny,others}.csv --plot "$out/verdict.svg"
+  "$out"/{indoor,none,kitti,none_outdoors,balm,bunny,nclt,lidar,table,icl,kinect,others}.csv \
+  --plot "$out/verdict.svg"

@@ -7,6 +7,7 @@
 
 #include "judgement/cpu/agreement.h"
 #include "judgement/cpu/plane_alignment.h"
+#include "judgement/cpu/principal_motions.h"
 #include "judgement/confidence.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -153,21 +154,21 @@ TEST(FreeSpace, IsWhatLiesInFrontOfTheSurface)
       wall.emplace_back(x, y, 2);
   FreeSpace space;
   EXPECT_FALSE(space.known());
-  EXPECT_FALSE(space.contains({0, 0, 1}));
+  EXPECT_FALSE(space.contains({0, 0, 1}, 0.15f));
   space.build(wall, {0, 0, 0}, 0.05f);
   EXPECT_TRUE(space.known());
-  EXPECT_TRUE(space.contains({0.1f, 0.1f, 1}));
-  EXPECT_TRUE(space.contains({0, 0, 1.7f}));
-  EXPECT_FALSE(space.contains({0, 0, 1.95f})) << "within the margin";
-  EXPECT_FALSE(space.contains({0, 0, 3})) << "behind the wall";
-  EXPECT_FALSE(space.contains({0, 0, -1})) << "behind the sensor";
-  EXPECT_FALSE(space.contains({3, 0, 1})) << "nothing was seen there";
+  EXPECT_TRUE(space.contains({0.1f, 0.1f, 1}, 0.15f));
+  EXPECT_TRUE(space.contains({0, 0, 1.7f}, 0.15f));
+  EXPECT_FALSE(space.contains({0, 0, 1.95f}, 0.15f)) << "within the margin";
+  EXPECT_FALSE(space.contains({0, 0, 3}, 0.15f)) << "behind the wall";
+  EXPECT_FALSE(space.contains({0, 0, -1}, 0.15f)) << "behind the sensor";
+  EXPECT_FALSE(space.contains({3, 0, 1}, 0.15f)) << "nothing was seen there";
   for (const float far : {1e38f, INFINITY, -INFINITY, NAN}) {
-    EXPECT_FALSE(space.contains({far, far, far})) << far;
-    EXPECT_FALSE(space.contains({0, far, 1})) << far;
+    EXPECT_FALSE(space.contains({far, far, far}, 0.15f)) << far;
+    EXPECT_FALSE(space.contains({0, far, 1}, 0.15f)) << far;
   }
   space.clear();
-  EXPECT_FALSE(space.contains({0, 0, 1}));
+  EXPECT_FALSE(space.contains({0, 0, 1}, 0.15f));
   space.build(wall, {0, INFINITY, 0}, 0.05f);
   EXPECT_FALSE(space.known());
 }
@@ -177,30 +178,31 @@ TEST(CloudAgreement, TellsAMatchFromAContradiction)
   const Corner corner(1), other(2);
   const Surface source = surfaceOf(corner.view()), target = surfaceOf(other.view());
   const SurfacePair clouds{source, target, SPACING};
-  const Effort effort{1000, 1.5f};
-  const CloudAgreement same =
-      agreementOf(clouds, poseOf(Eigen::Isometry3d::Identity()), effort);
+  const Look look(clouds, 1000, 1.5f, 3);
+  const CloudAgreement same = look(poseOf(Eigen::Isometry3d::Identity()));
   EXPECT_GT(same.matched, 0.9);
   EXPECT_EQ(same.contradicted, 0);
+  EXPECT_GT(same.residual, 0);
+  EXPECT_LT(same.residual, 0.3);
 
   // Half a metre along x: floor and one wall still match, the other wall hangs in the
   // air that the sensor looked through.
   const Pose slid = poseOf(motion(0, {0.5, 0, 0}));
-  const CloudAgreement sliding = agreementOf(clouds, slid, effort);
+  const CloudAgreement sliding = look(slid);
   EXPECT_GT(sliding.matched, 0.4);
   EXPECT_GT(sliding.contradicted, 0.05);
 
   const Surface blind = surfaceOf(corner.view(false));
-  EXPECT_EQ(agreementOf({blind, surfaceOf(other.view(false)), SPACING}, slid, effort)
-                .contradicted,
-            0);
+  const Surface blind_too = surfaceOf(other.view(false));
+  const SurfacePair unseen{blind, blind_too, SPACING};
+  EXPECT_EQ(Look(unseen, 1000, 1.5f, 3)(slid).contradicted, 0);
 
   // Turned over, the floor lies on itself, but faces the other way.
   Eigen::Isometry3d over = Eigen::Isometry3d::Identity();
   over.linear() = Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitX())
                       .toRotationMatrix();
   over.translation().y() = 2;
-  EXPECT_LT(agreementOf(clouds, poseOf(over), effort).matched, 0.1);
+  EXPECT_LT(look(poseOf(over)).matched, 0.1);
 }
 
 TEST(PlaneAlignment, MovesAPoseOntoTheSurface)
@@ -216,13 +218,34 @@ TEST(PlaneAlignment, MovesAPoseOntoTheSurface)
   }
 }
 
-TEST(PlaneAlignment, AWallAloneHoldsNothing)
+TEST(PrincipalMotions, AWallAloneHoldsNothing)
 {
   const Surface corner = surfaceOf(Corner(1).view());
   const Surface wall = surfaceOf(Corner(1, 1).view());
   const Pose identity = poseOf(Eigen::Isometry3d::Identity());
-  EXPECT_GT(stiffnessOf({corner, corner, SPACING}, identity), 0.02);
-  EXPECT_LT(stiffnessOf({wall, wall, SPACING}, identity), 1e-6);
+  EXPECT_GT(principalMotions({corner, corner, SPACING}, identity).front().stiffness,
+            0.02);
+  const std::vector<Motion> motions = principalMotions({wall, wall, SPACING}, identity);
+  ASSERT_EQ(motions.size(), 6u);
+  EXPECT_LT(motions[2].stiffness, 1e-6) << "two shifts and a turn are free";
+  EXPECT_GT(motions[3].stiffness, 0.05);
+}
+
+TEST(PrincipalMotions, MoveAlongAScrew)
+{
+  Motion motion;
+  motion.middle = {1, 2, 3};
+  motion.turn = {0, 0, 0.5};
+  motion.shift = {0, 0, 0.25};
+  const double pi = 3.14159265358979323846;
+  const Pose moved = moveAlong(poseOf(Eigen::Isometry3d::Identity()), motion, 2 * pi);
+  const Vec3 at = transform(moved, {2, 2, 3});
+  EXPECT_NEAR(at.x, 0, 1e-12) << "half a turn about the middle";
+  EXPECT_NEAR(at.y, 2, 1e-12);
+  EXPECT_NEAR(at.z, 3 + pi / 2, 1e-12);
+  const Vec3 back = transform(moveAlong(moved, motion, -2 * pi), {2, 2, 3});
+  EXPECT_NEAR(back.x, 2, 1e-12);
+  EXPECT_NEAR(back.z, 3, 1e-12);
 }
 
 /** \brief A corner seen twice, and correspondences of which more agree with a wrong motion
@@ -384,7 +407,8 @@ TEST(Confidence, GrowsWithWhatSpeaksForAPose)
   EXPECT_LE(confidenceOf(better), 0.5) << "there is another pose as good";
 
   evidence.has_clouds = evidence.has_viewpoints = true;
-  evidence.agreement = {0.3, 0.01};
+  evidence.agreement = {0.3, 0.01, 0.3};
+  evidence.hold = 1;
   evidence.lead = 1;
   evidence.stiffness = 0.02;
   const double p = confidenceOf(evidence);

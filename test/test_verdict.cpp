@@ -201,6 +201,73 @@ TEST(Verdict, DoesNotTrustAFlatCloud)
   }
 }
 
+/** \brief Two bodies of which one moved: the larger one has all the best pivots. */
+TEST(Verdict, SeesASecondMotion)
+{
+  made::Random random(6);
+  const Eigen::Isometry3d other = random.pose(3);
+  Pairs pairs;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d s = random.inCube(2), t = random.inCube(2);
+    pairs.add(s,
+              i % 10 == 0                  ? truth() * s
+              : i % 10 == 1 && i % 20 < 18 ? other * s
+                                           : t);
+  }
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector3d s = random.inCube(2);
+    pairs.add(s, truth() * s);
+  }
+  const Result result = pairs.estimate(0.02);
+  ASSERT_EQ(result.status, Status::Ok);
+  ASSERT_GE(result.hypotheses.size(), 2u);
+  EXPECT_TRUE(result.T_target_source.toIsometry().isApprox(truth(), 1e-2));
+  EXPECT_TRUE(result.hypotheses[1].T_target_source.toIsometry().isApprox(other, 1e-2));
+  EXPECT_GE(result.evidence.rival_inliers, 100);
+  EXPECT_LT(result.distinctness, 3);
+}
+
+/** \brief The room twice, side by side: nobody can tell in which one the scan was taken. */
+TEST(Verdict, IsNoMoreCertainThanOneOfTwoPlacesThatLookAlike)
+{
+  const made::RoomScans scans;
+  std::vector<double> twice = scans.target;
+  made::Random random(9);
+  for (std::size_t i = 0; i < scans.target.size(); i += 3)
+    made::RoomScans::append(twice,
+                            Eigen::Vector3d(&scans.target[i]) +
+                                Eigen::Vector3d(7.03, 0.02, 0) + noise(random, 0.003));
+  ScanInput<double> target = scans.targetInput();
+  target.points.data = twice.data();
+  target.points.size = twice.size() / 3;
+  target.viewpoint_known = false;
+  PairOptions options;
+  options.resolution = 0.1;
+  const PairResult result =
+      PairRegistration(BackendKind::Cpu, 1).align(scans.sourceInput(), target, options);
+  EXPECT_LE(result.pose.confidence, 0.55);
+  EXPECT_FALSE(result.pose.converged);
+  EXPECT_GE(result.pose.hypotheses.size(), 2u);
+  EXPECT_GT(result.pose.evidence.rivals, 0.8);
+}
+
+TEST(Verdict, IsTheSameInBothDirections)
+{
+  const made::RoomScans scans;
+  PairOptions options;
+  options.resolution = 0.1;
+  PairRegistration registration(BackendKind::Cpu, 1);
+  const PairResult there =
+      registration.align(scans.sourceInput(), scans.targetInput(), options);
+  const PairResult back =
+      registration.align(scans.targetInput(), scans.sourceInput(), options);
+  EXPECT_TRUE(there.pose.converged);
+  EXPECT_TRUE(back.pose.converged);
+  EXPECT_NEAR(there.pose.confidence, back.pose.confidence, 0.02);
+  EXPECT_NEAR(there.pose.evidence.stiffness, back.pose.evidence.stiffness, 0.005);
+  EXPECT_NEAR(there.pose.evidence.hold, back.pose.evidence.hold, 0.3);
+}
+
 TEST(Verdict, IsLimitedByEachOfItsNeeds)
 {
   Evidence evidence;
@@ -227,15 +294,23 @@ TEST(Verdict, IsLimitedByEachOfItsNeeds)
   evidence.has_clouds = true;
   evidence.agreement.matched = 0.9;
   evidence.lead = 5;
-  evidence.stiffness = 0.02;
+  evidence.hold = 2;
+  evidence.stiffness = 0.05;
   for (const bool viewpoints : {true, false})
     for (const bool one : {true, false}) {
       evidence.has_viewpoints = viewpoints;
       evidence.one_viewpoint = one;
       EXPECT_GT(confidenceOf(evidence), 0.95);
       worse = evidence;
-      worse.stiffness = 0.0005;
+      worse.stiffness = 0.004;
       EXPECT_LE(confidenceOf(worse), 0.5);
+      worse = evidence;
+      worse.hold = 0.2;
+      EXPECT_LE(confidenceOf(worse), 0.5);
+      worse = evidence;
+      worse.rivals = 2;
+      EXPECT_LE(confidenceOf(worse), 1.0 / 3);
+      worse = evidence;
       worse.stiffness = 0;
       EXPECT_EQ(confidenceOf(worse), 0);
       worse = evidence;

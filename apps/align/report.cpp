@@ -83,16 +83,46 @@ formatTimes(const Outcome& outcome)
   return text + line + '\n';
 }
 
+std::string
+formatVector(const Eigen::Vector3d& v, int digits)
+{
+  return "(" + rounded(v.x(), digits) + " " + rounded(v.y(), digits) + " " +
+         rounded(v.z(), digits) + ")";
+}
+
+/** \brief A line for each motion that the clouds leave free. */
+std::string
+formatFreeMotions(const Result& result)
+{
+  std::string text;
+  for (const FreeMotion& motion : result.free_motions) {
+    const bool turns = motion.kind == FreeMotion::Kind::Turn;
+    const double unit = turns ? 180 / 3.14159265358979323846 : 1;
+    const int digits = turns ? 0 : 2;
+    text += (text.empty() ? "free        may " : "            may ");
+    text +=
+        (turns ? "turn about " : "slide along ") + formatVector(motion.direction, 2);
+    if (turns)
+      text += " through " + formatVector(motion.point, 2);
+    text += ", from " + rounded(-unit * motion.backward, digits) + " to " +
+            rounded(unit * motion.forward, digits) + (turns ? " deg" : "") + '\n';
+  }
+  return text;
+}
+
 /** \brief What a pose lacks that every pose needs; empty if that is not known. */
 std::string
 formatWant(const Evidence& evidence)
 {
   // Where the confidence is at most an even chance (docs/method.md).
-  constexpr double MIRRORED = 1.2, FREE = 0.0005, NARROW = 1;
+  constexpr double MIRRORED = 1.2, SOFT = 0.004, LOOSE = 0.2, RIVALS = 1, NARROW = 1;
   if (evidence.mirrored > MIRRORED)
     return "a mirror image explains the correspondences better: is an axis flipped?";
-  if (evidence.has_clouds)
-    return evidence.stiffness < FREE ? "the surfaces leave it free to move" : "";
+  if (evidence.has_clouds) {
+    if (evidence.stiffness < SOFT || evidence.hold < LOOSE)
+      return "the clouds match as well where it is moved off";
+    return evidence.rivals > RIVALS ? "other poses explain the clouds as well" : "";
+  }
   if (evidence.breadth < NARROW)
     return "those that agree lie on a line, about which it may turn";
   return evidence.log_chance > 0 ? "as many would agree by chance" : "";
@@ -127,6 +157,7 @@ formatReport(const Options& options, const Outcome& outcome)
   if (outcome.pair.pose.status == Status::Ok)
     text += "transform, source to target:\n" +
             formatPose(outcome.pair.pose.T_target_source);
+  text += formatFreeMotions(outcome.pair.pose);
   text += "inliers     " + formatCounts(outcome) + '\n';
   if (outcome.pair.resolution != 0) {
     std::ostringstream resolution;

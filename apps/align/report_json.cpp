@@ -74,9 +74,13 @@ evidenceOf(const Evidence& evidence)
   if (evidence.has_clouds) {
     json["viewpoints"] = evidence.has_viewpoints;
     json["one_viewpoint"] = evidence.one_viewpoint;
+    json["overruled_viewpoints"] = evidence.overruled_viewpoints;
     json["matched"] = evidence.agreement.matched;
     json["contradicted"] = evidence.agreement.contradicted;
+    json["residual"] = evidence.agreement.residual;
     json["lead"] = evidence.lead;
+    json["rivals"] = evidence.rivals;
+    json["hold"] = evidence.hold;
     json["stiffness"] = evidence.stiffness;
   }
   return json;
@@ -91,6 +95,20 @@ hypothesesOf(const Result& result)
         {{"transformation", rowsOf(hypothesis.T_target_source.toMatrix<double>())},
          {"inliers", hypothesis.inlier_count},
          {"score", hypothesis.score}});
+  return list;
+}
+
+/** \brief Lengths in the unit of the clouds, turns in radians. */
+Json
+freeMotionsOf(const Result& result)
+{
+  Json list = Json::array();
+  for (const FreeMotion& motion : result.free_motions)
+    list.push_back({{"kind", motion.kind == FreeMotion::Kind::Turn ? "turn" : "slide"},
+                    {"direction", rowsOf(motion.direction.transpose())[0]},
+                    {"point", rowsOf(motion.point.transpose())[0]},
+                    {"backward", motion.backward},
+                    {"forward", motion.forward}});
   return list;
 }
 
@@ -132,6 +150,7 @@ formatJson(const Options& options, const Outcome& outcome)
   json["second_order"] =
       result.second_order == SecondOrder::Exact ? "exact" : "bounded";
   json["hypotheses"] = hypothesesOf(result);
+  json["free_motions"] = freeMotionsOf(result);
   json["information"] = rowsOf(result.information);
   json["timings_ms"] = timingsOf(outcome);
   // A path need not be valid UTF-8.

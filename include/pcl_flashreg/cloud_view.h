@@ -38,7 +38,7 @@ struct CloudPairView {
 };
 
 /** \brief How two clouds get on with each other under a pose: shares of the points of
- * both, each in [0, 1]. */
+ * both, each in [0, 1], and how well they fit. */
 struct CloudAgreement {
   /** \brief Points that lie on the other cloud's surface and face the same way, each
    * weighted by how well it does. */
@@ -46,6 +46,9 @@ struct CloudAgreement {
   /** \brief Points that lie where the other cloud's sensor saw that nothing is. 0 if no
    * viewpoint is known. */
   double contradicted = 0;
+  /** \brief Distance of the points that match from the other cloud's tangent planes, root
+   * mean square, in spacings. No share; 0 if none matches. */
+  double residual = 0;
 };
 
 } // namespace pcl_flashreg

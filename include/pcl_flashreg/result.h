@@ -101,13 +101,39 @@ struct Evidence {
   bool has_viewpoints = false;
   /** \brief Whether that is so of one cloud alone. */
   bool one_viewpoint = false;
+  /** \brief Whether viewpoints are known and not believed: without them the clouds are more
+   * certain, of another pose perhaps. */
+  bool overruled_viewpoints = false;
   CloudAgreement agreement;
   /** \brief By how much the evidence for this pose exceeds that for the best other one,
    * as a logarithm; at most 5, which is also its value where there is no other one. */
   double lead = 0;
+  /** \brief How many other poses explain as much. One that explains less counts for
+   * exp(-4 lead), or, if a few dozen correspondences agree with it, for exp(-8 lead) by the
+   * clouds alone. */
+  double rivals = 0;
+  /** \brief By how much, as a logarithm, what the clouds say falls at least where the source
+   * is moved off along the motions that the surfaces oppose least; at most 5, and about 0 or
+   * less where the pose may slide or turn. */
+  double hold = 0;
   /** \brief How firmly the surfaces hold the pose: the smallest eigenvalue of their
-   * point-to-plane Hessian, with arms in units of their own spread, a point. */
+   * point-to-plane Hessian over the number of points, with arms in units of their own
+   * spread. */
   double stiffness = 0;
+};
+
+/** \brief A way to move the source that neither cloud opposes: all along it they match as
+ * well as at the pose itself, or nearly. The pose holds but for this. */
+struct FreeMotion {
+  enum class Kind { Slide, Turn };
+  Kind kind = Kind::Slide;
+  /** \brief Of the slide, or of the axis; of length 1, in the frame of the target. */
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  /** \brief On the axis; for a slide, the middle of the points that match. */
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  /** \brief How far it goes against the direction and along it, in the unit of the clouds or
+   * in radians. No further was looked than 63 times the resolution, or half a turn. */
+  double backward = 0, forward = 0;
 };
 
 /** \brief 6x6, symmetric, positive semi-definite; a type whose alignment does not depend on
@@ -162,8 +188,13 @@ struct Result {
    * Gauss-Newton Hessian of the squared residuals over the residuals' own variance. Order
    * (rotation, translation), of a small motion applied on the left, about the target
    * frame's origin: T <- exp(xi) T. Independent errors are assumed, so it is
-   * over-confident where neighbouring inliers err together. Zero unless status is Ok. */
+   * over-confident where neighbouring inliers err together. Nothing is known along free
+   * motions. Zero unless status is Ok. */
   InformationMatrix information = InformationMatrix::Zero();
+
+  /** \brief Motions that the clouds leave free, the freest first: a corridor lets the pose
+   * slide, a bottle lets it turn. Empty where all of the pose is held, or no cloud was asked. */
+  std::vector<FreeMotion> free_motions;
 
   StageTimings timings_ms;
 

@@ -38,4 +38,14 @@ informationMatrix(const Problem& problem,
   return hessian / variance;
 }
 
+void
+forget(const Eigen::Matrix<double, 6, 1>& motion, InformationMatrix& information)
+{
+  // What is left is singular along the motion, and the same for all that is conjugate to it.
+  const Eigen::Matrix<double, 6, 1> known = information * motion;
+  const double along = motion.dot(known);
+  if (along > 0)
+    information -= known * known.transpose() / along;
+}
+
 } // namespace pcl_flashreg

@@ -3,9 +3,13 @@
 
 #include "judgement/cloud_check.h"
 
-#include "judgement/cpu/plane_alignment.h"
 #include "judgement/confidence.h"
+#include "judgement/cpu/plane_alignment.h"
+#include "judgement/displacement.h"
 #include "judgement/evidence.h"
+#include "judgement/free_motion.h"
+#include "judgement/screening.h"
+#include "judgement/walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,163 +17,186 @@
 namespace pcl_flashreg {
 namespace {
 
-/** \brief A pose that has not been moved onto the surface yet is off by a spacing or two,
- * which the wider tolerance makes up for. */
-constexpr Effort GLANCE{24, 2.0f}, LOOK{128, 2.0f}, STUDY{1000, 1.5f};
+/** \brief Points of a cloud that judge each pose, and the best. */
+constexpr std::size_t POINTS = 1000, POINTS_FOR_BEST = 4000;
+/** \brief See Look. Moved onto the surface, a pose is exact enough for a thin margin, which
+ * finds the better one; the evidence has to hold for noisier sensors, too. */
+constexpr float TOLERANCE = 1.5f, MARGIN = 1, MARGIN_OF_EVIDENCE = 2;
 
-/** \brief Hypotheses that pass the first screening, and the second. */
-constexpr std::size_t AFTER_GLANCE = 400, AFTER_LOOK = 12;
+/** \brief Poses on the surface are the same if no corner of the cube around the source moves
+ * by more than this many spacings, or than this share of its half side. */
+constexpr double SAME = 10, SAME_OF_SMALL = 0.6;
 
-/** \brief Poses are the same if no corner of the cube around the source moves by more
- * than this many spacings, before they are moved onto the surface and after. */
-constexpr float SAME_BEFORE = 6, SAME_AFTER = 10;
+/** \brief Evidence::lead and Evidence::hold at most. */
+constexpr double MAX_LEAD = 5, MAX_HOLD = 5;
 
-/** \brief Shares of points below which nothing can be told. */
-constexpr double FLOOR = 0.01;
+/** \brief Poses that are taken up along the way off the best one, and how often that may be
+ * another one then. */
+constexpr std::size_t TAKEN_UP = 4;
+constexpr int WALKS = 3;
 
-/** \brief Evidence::lead at most. */
-constexpr double MAX_LEAD = 5;
-
-/** \brief A pose that is this certain without the viewpoints, and not with them, is
- * believed: it is the viewpoints that are wrong. */
-constexpr double BELIEVED_BLINDLY = 0.95;
-
-struct Ranked {
-  double evidence;
-  std::uint32_t hypothesis;
-};
-
-bool
-better(const Ranked& a, const Ranked& b)
-{
-  return a.evidence > b.evidence ||
-         (a.evidence == b.evidence && a.hypothesis < b.hypothesis);
-}
-
-/** \brief By the clouds alone. */
-double
-evidenceOf(const CloudAgreement& agreement)
-{
-  return agreement.matched / (agreement.matched + agreement.contradicted + FLOOR);
-}
-
-void
-rank(const SurfacePair& clouds,
-     const std::vector<Pose>& hypotheses,
-     const Effort& effort,
-     std::vector<Ranked>& ranked,
-     ThreadPool& pool)
-{
-  constexpr std::size_t A_TASK = 32;
-  pool.forEach(
-      (ranked.size() + A_TASK - 1) / A_TASK, [&](std::size_t task, std::size_t) {
-        const std::size_t end = std::min(ranked.size(), (task + 1) * A_TASK);
-        for (std::size_t i = task * A_TASK; i < end; ++i)
-          ranked[i].evidence =
-              evidenceOf(agreementOf(clouds, hypotheses[ranked[i].hypothesis], effort));
-      });
-}
-
-/** \brief Largest displacement between two poses over the corners of a cube of this half
- * side around the centre of the source. */
-double
-displacementOf(const Pose& a, const Pose& b, double half_side)
-{
-  double largest = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p{corner & 1 ? half_side : -half_side,
-                 corner & 2 ? half_side : -half_side,
-                 corner & 4 ? half_side : -half_side};
-    const Vec3 d = transform(a, p) - transform(b, p);
-    largest = std::max(largest, std::sqrt(dot(d, d)));
+class CloudCheck {
+public:
+  CloudCheck(const SurfacePair& clouds,
+             const Problem& problem,
+             float inlier_distance,
+             double half_side,
+             ThreadPool& pool)
+      : clouds_(clouds),
+        problem_(problem),
+        inlier_distance_(inlier_distance),
+        half_side_(half_side),
+        pool_(pool),
+        look_(clouds, POINTS, TOLERANCE, MARGIN)
+  {
   }
-  return largest;
-}
 
-double
-halfSideOf(const Surface& source)
-{
-  float squared = 0;
-  for (const Eigen::Vector3f& point : source.points)
-    squared = std::max(squared, point.squaredNorm());
-  return std::sqrt(squared / 3.0);
-}
-
-/** \brief Appends the best hypotheses that differ from each other and from those in the
- * list. */
-void
-screen(const SurfacePair& clouds,
-       const std::vector<Pose>& hypotheses,
-       double half_side,
-       std::vector<Pose>& list,
-       ThreadPool& pool)
-{
-  std::vector<Ranked> ranked(hypotheses.size());
-  for (std::size_t i = 0; i < ranked.size(); ++i)
-    ranked[i].hypothesis = static_cast<std::uint32_t>(i);
-  if (ranked.size() > AFTER_GLANCE) {
-    rank(clouds, hypotheses, GLANCE, ranked, pool);
-    std::nth_element(
-        ranked.begin(), ranked.begin() + AFTER_GLANCE, ranked.end(), better);
-    ranked.resize(AFTER_GLANCE);
+  /** \brief Moves poses onto the surface, and asks the clouds on many points. */
+  void
+  study(const std::vector<Pose>& poses)
+  {
+    const std::size_t first = checked_.size();
+    checked_.resize(first + poses.size());
+    pool_.forEach(poses.size(), [&](std::size_t i, std::size_t) {
+      CheckedPose& result = checked_[first + i];
+      result.pose = moveOntoTarget(clouds_, poses[i]);
+      result.agreement = look_(result.pose);
+      result.inlier_count =
+          static_cast<int>(inliersOf(problem_, result.pose, inlier_distance_).size());
+    });
   }
-  rank(clouds, hypotheses, LOOK, ranked, pool);
-  std::sort(ranked.begin(), ranked.end(), better);
-  const std::size_t wanted = list.size() + AFTER_LOOK;
-  for (const Ranked& entry : ranked) {
-    if (list.size() == wanted)
+
+  /** \brief Ranks the poses and gathers the evidence for the best. */
+  CloudFindings
+  judge(bool with_viewpoints)
+  {
+    std::size_t best = bestOf(with_viewpoints);
+    for (int left = WALKS; walk(best), left > 1; --left) {
+      study(peaksOf(walks_, with_viewpoints, TAKEN_UP));
+      const std::size_t now = bestOf(with_viewpoints);
+      if (now == best)
+        break;
+      best = now;
+    }
+    return findings(best, with_viewpoints);
+  }
+
+private:
+  /** \brief What speaks for a pose, as a logarithm. */
+  static double
+  weightOf(const CheckedPose& pose, bool with_viewpoints)
+  {
+    return evidenceOf(pose.agreement, with_viewpoints) +
+           0.5 * std::log(pose.inlier_count + 5.0);
+  }
+
+  /** \brief How much of a rival another pose is: 1 for one that explains as much.
+   *
+   * Where a place looks the same from elsewhere, the clouds say so; more correspondences
+   * then speak for one pose than for another because the scans' patterns of points meet
+   * there, so a few dozen for the other one are enough. */
+  static double
+  loudnessOf(const CheckedPose& rival, const CheckedPose& pose, bool with_viewpoints)
+  {
+    constexpr double BY_ALL = 4, BY_CLOUDS = 8, A_FEW_DOZEN = 60;
+    const double lead =
+        weightOf(pose, with_viewpoints) - weightOf(rival, with_viewpoints);
+    const double lead_by_clouds = evidenceOf(pose.agreement, with_viewpoints) -
+                                  evidenceOf(rival.agreement, with_viewpoints);
+    const double fourth = std::pow(rival.inlier_count / A_FEW_DOZEN, 4);
+    return std::max(std::exp(-BY_ALL * std::max(0.0, lead)),
+                    std::exp(-BY_CLOUDS * std::max(0.0, lead_by_clouds)) * fourth /
+                        (1 + fourth));
+  }
+
+  std::size_t
+  bestOf(bool with_viewpoints) const
+  {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < checked_.size(); ++i)
+      if (weightOf(checked_[i], with_viewpoints) >
+          weightOf(checked_[best], with_viewpoints))
+        best = i;
+    return best;
+  }
+
+  /** \brief Off this pose, unless that is where the last walk went. */
+  void
+  walk(std::size_t pose)
+  {
+    if (walked_from_ == pose)
       return;
-    const Pose& pose = hypotheses[entry.hypothesis];
-    if (std::none_of(list.begin(), list.end(), [&](const Pose& other) {
-          return displacementOf(pose, other, half_side) < SAME_BEFORE * clouds.spacing;
-        }))
-      list.push_back(pose);
+    walks_ = walkOff(clouds_, checked_[pose].pose, pool_);
+    walked_from_ = pose;
   }
-}
 
-/** \brief What speaks for a pose, as a logarithm. */
-double
-weightOf(const CheckedPose& pose, bool with_viewpoints)
-{
-  const CloudAgreement& agreement = pose.agreement;
-  return std::log(agreement.matched + FLOOR) -
-         (with_viewpoints ? std::log(agreement.contradicted + FLOOR) : 0) +
-         0.5 * std::log(pose.inlier_count + 5.0);
-}
+  bool
+  same(const Pose& a, const Pose& b) const
+  {
+    return displacementOf(a, b, half_side_) <
+           std::min(SAME * clouds_.spacing, SAME_OF_SMALL * half_side_);
+  }
 
-/** \brief Ranks the poses and gathers the evidence for the best. */
-CloudFindings
-judge(const SurfacePair& clouds,
-      std::vector<CheckedPose> checked,
-      double half_side,
-      bool with_viewpoints)
-{
-  const auto weight = [&](const CheckedPose& pose) {
-    return weightOf(pose, with_viewpoints);
-  };
-  std::stable_sort(checked.begin(), checked.end(), [&](const auto& a, const auto& b) {
-    return weight(a) > weight(b);
-  });
-  CloudFindings findings;
-  std::vector<CheckedPose>& poses = findings.poses;
-  for (const CheckedPose& pose : checked)
-    if (std::none_of(poses.begin(), poses.end(), [&](const CheckedPose& other) {
-          return displacementOf(pose.pose, other.pose, half_side) <
-                 SAME_AFTER * clouds.spacing;
-        }))
-      poses.push_back(pose);
-  Evidence& evidence = findings.evidence;
-  evidence.inliers = poses.front().inlier_count;
-  evidence.has_clouds = true;
-  evidence.has_viewpoints = with_viewpoints;
-  evidence.one_viewpoint = with_viewpoints && !clouds.oriented();
-  evidence.agreement = poses.front().agreement;
-  evidence.lead = MAX_LEAD;
-  if (poses.size() > 1)
-    evidence.lead = std::min(MAX_LEAD, weight(poses[0]) - weight(poses[1]));
-  evidence.stiffness = stiffnessOf(clouds, poses.front().pose);
-  return findings;
-}
+  /** \brief One of each, the best first. */
+  std::vector<CheckedPose>
+  distinct(std::size_t best, bool with_viewpoints) const
+  {
+    std::vector<CheckedPose> sorted = checked_;
+    std::swap(sorted.front(), sorted[best]);
+    std::stable_sort(
+        sorted.begin() + 1, sorted.end(), [&](const auto& a, const auto& b) {
+          return weightOf(a, with_viewpoints) > weightOf(b, with_viewpoints);
+        });
+    std::vector<CheckedPose> poses;
+    for (const CheckedPose& pose : sorted)
+      if (std::none_of(poses.begin(), poses.end(), [&](const CheckedPose& other) {
+            return same(pose.pose, other.pose);
+          }))
+        poses.push_back(pose);
+    return poses;
+  }
+
+  CloudFindings
+  findings(std::size_t best, bool with_viewpoints) const
+  {
+    CloudFindings findings;
+    findings.poses = distinct(best, with_viewpoints);
+    const CheckedPose& first = findings.poses.front();
+    Evidence& evidence = findings.evidence;
+    evidence.inliers = first.inlier_count;
+    evidence.has_clouds = true;
+    evidence.has_viewpoints = with_viewpoints;
+    evidence.one_viewpoint = with_viewpoints && !clouds_.oriented();
+    evidence.agreement =
+        Look(clouds_, POINTS_FOR_BEST, TOLERANCE, MARGIN_OF_EVIDENCE)(first.pose);
+    evidence.lead = MAX_LEAD;
+    for (std::size_t i = 1; i < findings.poses.size(); ++i) {
+      const CheckedPose& other = findings.poses[i];
+      evidence.lead =
+          std::min(evidence.lead,
+                   weightOf(first, with_viewpoints) - weightOf(other, with_viewpoints));
+      evidence.rivals += loudnessOf(other, first, with_viewpoints);
+    }
+    evidence.hold = walks_.empty() ? 0 : MAX_HOLD;
+    for (const Walk& walk : walks_)
+      evidence.hold = std::min(evidence.hold, -walk.rise(with_viewpoints));
+    evidence.stiffness = walks_.empty() ? 0 : walks_.front().motion.stiffness;
+    findings.free_motions = freeMotionsOf(walks_, with_viewpoints);
+    return findings;
+  }
+
+  static constexpr std::size_t NOWHERE = ~std::size_t{0};
+
+  const SurfacePair& clouds_;
+  const Problem& problem_;
+  float inlier_distance_;
+  double half_side_;
+  ThreadPool& pool_;
+  Look look_;
+  std::vector<CheckedPose> checked_;
+  std::vector<Walk> walks_;
+  std::size_t walked_from_ = NOWHERE;
+};
 
 } // namespace
 
@@ -190,20 +217,17 @@ checkOnClouds(const SurfacePair& clouds,
   if (clouds.seeing())
     screen(clouds, hypotheses, half_side, list, pool);
 
-  std::vector<CheckedPose> checked(list.size());
-  pool.forEach(list.size(), [&](std::size_t i, std::size_t) {
-    CheckedPose& result = checked[i];
-    result.pose = moveOntoTarget(clouds, list[i]);
-    result.agreement = agreementOf(clouds, result.pose, STUDY);
-    result.inlier_count =
-        static_cast<int>(inliersOf(problem, result.pose, inlier_distance).size());
-  });
-  CloudFindings blind = judge(clouds, checked, half_side, false);
+  CloudCheck check(clouds, problem, inlier_distance, half_side, pool);
+  check.study(list);
   if (!clouds.seeing())
-    return blind;
-  CloudFindings seeing = judge(clouds, std::move(checked), half_side, true);
-  const double enough = std::max(BELIEVED_BLINDLY, confidenceOfClouds(seeing.evidence));
-  return confidenceOfClouds(blind.evidence) > enough ? blind : seeing;
+    return check.judge(false);
+  CloudFindings seeing = check.judge(true);
+  CloudFindings blind = check.judge(false);
+  blind.evidence.overruled_viewpoints = true;
+  // What is more certain without the viewpoints says that they are wrong.
+  return confidenceOfClouds(blind.evidence) > confidenceOfClouds(seeing.evidence)
+             ? blind
+             : seeing;
 }
 
 } // namespace pcl_flashreg

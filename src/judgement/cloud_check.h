@@ -27,6 +27,8 @@ struct CloudFindings {
   /** \brief For the best pose; what comes from correspondences alone is not filled in,
    * but for the inliers. */
   Evidence evidence;
+  /** \brief Of the best pose, in the centred frame of the target. */
+  std::vector<FreeMotion> free_motions;
 };
 
 /** \brief Asks the clouds which of many hypotheses is right.

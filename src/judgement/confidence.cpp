@@ -15,81 +15,88 @@ logistic(double x)
   return 1 / (1 + std::exp(-x));
 }
 
-/** \brief No pose is more certain than its lead over its rival lets it be: 50 % for one
- * with as many inliers. */
+/** \brief Even where the value just is what it has to be. */
 double
-limitByRival(const Evidence& e)
+halfAt(double value, double half, double power)
 {
-  return 1 / (1 + std::pow(e.rival_inliers / std::max(1.0, e.inliers), 4));
+  return 1 - 1 / (1 + std::pow(value / half, power));
 }
 
-/** \brief Nor than that it is no play of chance: 50 % where one pose is expected to have as
- * many inliers with pairs that were drawn at random. */
+/** \brief What every pose needs that correspondences speak for: an even chance for each that
+ * it just lacks. */
 double
-limitByChance(const Evidence& e)
+neededOfCorrespondences(const Evidence& e)
 {
-  return logistic(-e.log_chance);
-}
-
-/** \brief Nor than that the inliers hold it: on a line as thin as the inlier distance, it may
- * turn. */
-double
-limitByBreadth(const Evidence& e)
-{
-  const double fourth = std::pow(e.breadth, 4);
-  return fourth / (1 + fourth);
+  // A lead over its rival.
+  const double alone =
+      1 / (1 + std::pow(e.rival_inliers / std::max(1.0, e.inliers), 4));
+  // More of them than one pose is expected to have with pairs that were drawn at random.
+  const double no_chance = logistic(-e.log_chance);
+  // Inliers that hold it: on a line as thin as the inlier distance, it may turn.
+  const double held = halfAt(e.breadth, 1, 4);
+  return alone * no_chance * held;
 }
 
 double
 fromCorrespondences(const Evidence& e)
 {
-  const double p = logistic(-11.56 + 3.23 * std::log(e.inliers + 1) +
-                            1.90 * std::log(e.inlier_ratio + 1e-4) +
-                            0.33 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
-                            1.66 * std::log(e.thickness + 1));
-  return std::min({p, limitByRival(e), limitByChance(e), limitByBreadth(e)});
+  return logistic(-11.56 + 3.23 * std::log(e.inliers + 1) +
+                  1.90 * std::log(e.inlier_ratio + 1e-4) +
+                  0.33 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
+                  1.66 * std::log(e.thickness + 1));
 }
 
 /** \brief Where a reflection explains more than any motion, no motion is right. */
 double
-limitByMirror(const Evidence& e)
+notMirrored(const Evidence& e)
 {
   return logistic(3 * (1.2 - e.mirrored));
 }
 
-/** \brief A pose that the surfaces leave free to move in some direction is not certain,
- * whatever else speaks for it. */
+/** \brief What every pose needs that clouds are to confirm, whatever else speaks for it: an even
+ * chance for each that it just lacks. */
 double
-limitByStiffness(const Evidence& e)
+neededOfClouds(const Evidence& e)
 {
-  const double sixth = std::pow(e.stiffness / 0.0005, 6);
-  return sixth / (1 + sixth);
+  // No others that explain as much: one over their number, and its own.
+  const double alone = 1 / (1 + e.rivals);
+  // No way to move it and still explain as much.
+  const double held = logistic(8 * (e.hold - 0.2));
+  // Nor one that the surfaces don't oppose.
+  const double stiff = halfAt(e.stiffness, 0.004, 4);
+  return alone * held * stiff;
+}
+
+double
+holdOf(const Evidence& e)
+{
+  return std::clamp(e.hold, -1.0, 2.0);
 }
 
 double
 fromClouds(const Evidence& e)
 {
-  return logistic(-23.64 + 0.90 * std::log(e.agreement.matched + 0.01) -
-                  4.73 * std::log(e.agreement.contradicted + 0.01) +
-                  2.47 * std::log(e.inliers + 5) + 1.08 * e.lead +
-                  1.32 * std::log(e.stiffness + 0.001));
+  const CloudAgreement& a = e.agreement;
+  return logistic(-6.91 + 2.23 * std::log(a.matched + 0.01) -
+                  1.65 * std::log(a.contradicted / (a.matched + 0.01) + 0.01) +
+                  1.18 * std::log(e.inliers + 5) + 0.58 * e.lead +
+                  0.43 * std::log(e.stiffness + 0.001) + 1.48 * holdOf(e));
 }
 
 double
 fromCloudsWithOneViewpoint(const Evidence& e)
 {
-  return logistic(-11.58 - 0.77 * std::log(e.agreement.matched + 0.01) -
-                  1.87 * std::log(e.agreement.contradicted + 0.01) +
-                  2.67 * std::log(e.inliers + 5) + 2.17 * e.lead +
-                  2.12 * std::log(e.stiffness + 0.001));
+  return logistic(-4.01 + 2.28 * std::log(e.inliers + 5) + 1.90 * e.lead +
+                  1.17 * std::log(e.stiffness + 0.001) + 1.73 * holdOf(e) -
+                  5.62 * e.agreement.residual);
 }
 
 double
 fromCloudsWithoutViewpoints(const Evidence& e)
 {
-  return logistic(-10.48 - 0.74 * std::log(e.agreement.matched + 0.01) +
-                  3.89 * std::log(e.inliers + 5) + 0.38 * e.lead +
-                  1.92 * std::log(e.stiffness + 0.001));
+  return logistic(-6.21 + 2.40 * std::log(e.inliers + 5) + 2.83 * e.lead +
+                  0.79 * std::log(e.stiffness + 0.001) + 1.70 * holdOf(e) -
+                  5.36 * e.agreement.residual);
 }
 
 double
@@ -105,15 +112,19 @@ fittedToClouds(const Evidence& e)
 double
 confidenceOfClouds(const Evidence& evidence)
 {
-  return std::min(fittedToClouds(evidence), limitByStiffness(evidence));
+  const double p = fittedToClouds(evidence) * neededOfClouds(evidence);
+  // Viewpoints are right more often than not.
+  constexpr double ODDS = 3;
+  return evidence.overruled_viewpoints ? p / (p + ODDS * (1 - p)) : p;
 }
 
 double
 confidenceOf(const Evidence& evidence)
 {
-  return std::min(evidence.has_clouds ? confidenceOfClouds(evidence)
-                                      : fromCorrespondences(evidence),
-                  limitByMirror(evidence));
+  const double p = evidence.has_clouds ? confidenceOfClouds(evidence)
+                                       : fromCorrespondences(evidence) *
+                                             neededOfCorrespondences(evidence);
+  return p * notMirrored(evidence);
 }
 
 } // namespace pcl_flashreg

@@ -7,8 +7,11 @@
 #include "judgement/evidence.h"
 #include "judgement/mirror.h"
 #include "estimation/information.h"
+#include "estimation/leftover.h"
+#include "math/distinctness.h"
 #include "registration/choose_backend.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace pcl_flashreg {
@@ -60,6 +63,16 @@ rivalInliers(const std::vector<ScoredPose>& hypotheses)
   return most;
 }
 
+/** \brief Not distinct, as in stage 7. */
+bool
+sameFor(const Problem& problem, const Pose& a, const Pose& b, float inlier_distance)
+{
+  for (int corner = 0; corner < CORNERS; ++corner)
+    if (!agreeOnCorner(a, b, problem.radius, inlier_distance, corner))
+      return false;
+  return true;
+}
+
 } // namespace
 
 PoseSearch::PoseSearch(BackendKind backend, unsigned num_threads)
@@ -88,6 +101,42 @@ PoseSearch::toOriginal(const Pose& T) const
                          toEigen(preparation_.target_centre) -
                          original.rotation * toEigen(preparation_.source_centre);
   return original;
+}
+
+/** \brief Adds hypotheses that the correspondences support which the best one leaves
+ * unexplained. */
+void
+PoseSearch::addSecondBest(const Parameters& parameters,
+                          PoseEstimate& estimate,
+                          StageClock& clock)
+{
+  constexpr float NEAR = 3;
+  constexpr std::size_t MOST = 1000;
+  const float limit = parameters.inlier_distance;
+  const Pose best = estimate.hypotheses.front().pose;
+  takeLeftover(problem_, best, NEAR * limit, MOST, leftover_);
+  if (leftover_.size < 3)
+    return;
+  const PoseEstimate second = backend_->run(leftover_,
+                                            withRivals(parameters, true),
+                                            std::nullopt,
+                                            /* with_candidates */ false,
+                                            clock,
+                                            nullptr);
+  std::vector<ScoredPose>& hypotheses = estimate.hypotheses;
+  for (const ScoredPose& found : second.hypotheses) {
+    if (std::any_of(hypotheses.begin(), hypotheses.end(), [&](const ScoredPose& other) {
+          return sameFor(problem_, found.pose, other.pose, limit);
+        }))
+      continue;
+    const std::vector<int> inliers = inliersOf(problem_, found.pose, limit);
+    hypotheses.push_back({found.pose,
+                          scoreOf(problem_, found.pose, inliers, parameters),
+                          static_cast<int>(inliers.size())});
+  }
+  std::stable_sort(hypotheses.begin() + 1,
+                   hypotheses.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
 }
 
 /** \brief Replaces the hypotheses by those that stand before the clouds, unless the best
@@ -157,6 +206,16 @@ PoseSearch::fill(Result& result,
                                          estimate.inliers,
                                          preparation_.target_centre,
                                          parameters.inlier_distance);
+  for (FreeMotion motion : findings.free_motions) {
+    motion.point += toEigen(preparation_.target_centre);
+    Eigen::Matrix<double, 6, 1> screw;
+    if (motion.kind == FreeMotion::Kind::Turn)
+      screw << motion.direction, motion.point.cross(motion.direction);
+    else
+      screw << Eigen::Vector3d::Zero(), motion.direction;
+    forget(screw, result.information);
+    result.free_motions.push_back(motion);
+  }
 }
 
 SurfacePair
@@ -214,6 +273,8 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
                                           clock,
                                           trace_);
     CloudFindings findings;
+    if (estimate.status == Status::Ok)
+      addSecondBest(parameters, estimate, clock);
     if (estimate.status == Status::Ok) {
       std::vector<Pose> motions{estimate.hypotheses.front().pose};
       if (clouds)

@@ -72,6 +72,10 @@ private:
   SurfacePair
   prepareClouds(const JudgingClouds& clouds);
   void
+  addSecondBest(const Parameters& parameters,
+                PoseEstimate& estimate,
+                StageClock& clock);
+  void
   askClouds(const SurfacePair& clouds,
             const Parameters& parameters,
             PoseEstimate& estimate,
@@ -91,7 +95,7 @@ private:
   std::unique_ptr<Backend> backend_;
   Trace* trace_ = nullptr;
   Preparation preparation_;
-  Problem problem_;
+  Problem problem_, leftover_;
   Surface source_surface_, target_surface_;
 };
 

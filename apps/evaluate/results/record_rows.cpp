@@ -103,7 +103,10 @@ resultColumns()
           "stiffness",
           "breadth",
           "log_chance",
-          "mirrored"};
+          "mirrored",
+          "rivals",
+          "hold",
+          "residual"};
 }
 
 std::vector<std::string>
@@ -152,7 +155,10 @@ resultCells(const Record& r)
                 toText(e.stiffness),
                 toText(e.breadth),
                 toText(e.log_chance),
-                toText(e.mirrored)});
+                toText(e.mirrored),
+                toText(e.rivals),
+                toText(e.hold),
+                toText(e.agreement.residual)});
   return cells;
 }
 
@@ -207,6 +213,9 @@ recordFromCells(const std::vector<std::string>& cells)
   e.breadth = reader.number();
   e.log_chance = reader.number();
   e.mirrored = reader.number();
+  e.rivals = reader.number();
+  e.hold = reader.number();
+  e.agreement.residual = reader.number();
   return r;
 }
 

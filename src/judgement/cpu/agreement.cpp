@@ -6,6 +6,7 @@
 #include "math/rigid_float.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_flashreg {
 namespace {
@@ -20,52 +21,76 @@ constexpr float TOUCHING = 1;
 /** \brief Sums over the points of one cloud. */
 struct Sums {
   double matched = 0, contradicted = 0;
+  /** \brief Points that match, and the sum of their squared distances from the planes. */
+  double matches = 0, squares = 0;
   std::size_t points = 0;
 };
 
-/** \brief 1 - (d / tolerance)^2 of the distance to the tangent plane, times the cosine of
- * the normals; 0 for a point that does not match. */
-float
-matchOf(const Surface& to,
-        int neighbor,
-        const Eigen::Vector3f& place,
-        float cosine,
-        float limit)
-{
-  const float off = to.normals[neighbor].dot(place - to.points[neighbor]) / limit;
-  return cosine * std::max(0.0f, 1 - off * off);
-}
-
 Sums
-look(const Surface& from,
-     const Surface& to,
-     const RigidFloat& pose,
-     float spacing,
-     bool oriented,
-     const Effort& effort)
+sumUp(const Samples& from,
+      const Surface& to,
+      const RigidFloat& pose,
+      float spacing,
+      bool oriented,
+      float tolerance,
+      float margin)
 {
-  const float limit = effort.tolerance * spacing;
+  constexpr std::size_t A_BLOCK = 64;
+  const float limit = tolerance * spacing;
   const float touching = TOUCHING * spacing;
   Sums sums;
-  sums.points = std::min(effort.points, from.points.size());
-  for (std::size_t k = 0; k < sums.points; ++k) {
-    const std::size_t i = k * from.points.size() / sums.points;
-    const Eigen::Vector3f place = pose * from.points[i];
-    const int neighbor = to.nearest.find(place);
-    if (neighbor >= 0) {
-      const float squared = (place - to.points[neighbor]).squaredNorm();
-      const float cosine =
-          alignmentOf(pose.rotation * from.normals[i], to.normals[neighbor], oriented);
-      if (squared < limit * limit && cosine > MIN_COSINE) {
-        sums.matched += matchOf(to, neighbor, place, cosine, limit);
-        continue;
-      }
-      if (squared < touching * touching)
-        continue;
+  sums.points = from.points.size();
+  Eigen::Vector3f places[A_BLOCK];
+  int neighbors[A_BLOCK];
+  for (std::size_t first = 0; first < sums.points; first += A_BLOCK) {
+    const std::size_t count = std::min(A_BLOCK, sums.points - first);
+    // All look-ups first: then they wait for the memory together.
+    for (std::size_t k = 0; k < count; ++k) {
+      places[k] = pose * from.points[first + k];
+      neighbors[k] = to.nearest.find(places[k]);
     }
-    sums.contradicted += to.free_space.contains(place) ? 1 : 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Eigen::Vector3f& place = places[k];
+      if (const int neighbor = neighbors[k]; neighbor >= 0) {
+        const float squared = (place - to.points[neighbor]).squaredNorm();
+        const float cosine = alignmentOf(
+            pose.rotation * from.normals[first + k], to.normals[neighbor], oriented);
+        if (squared < limit * limit && cosine > MIN_COSINE) {
+          // 1 - (d / tolerance)^2 of the distance to the tangent plane.
+          const float off = to.normals[neighbor].dot(place - to.points[neighbor]);
+          const float relative = off / limit;
+          sums.matched += cosine * std::max(0.0f, 1 - relative * relative);
+          sums.matches += 1;
+          sums.squares += off * off;
+          continue;
+        }
+        if (squared < touching * touching)
+          continue;
+      }
+      sums.contradicted += to.free_space.contains(place, margin * spacing) ? 1 : 0;
+    }
   }
   return sums;
+}
+
+/** \brief From the sums over both clouds: each side counts by the number of its points, however many
+ * were looked at. */
+CloudAgreement
+seenFromBoth(const Sums& there,
+             std::size_t source_points,
+             const Sums& back,
+             std::size_t target_points)
+{
+  const auto sources = static_cast<double>(source_points);
+  const auto targets = static_cast<double>(target_points);
+  const auto share = [&](double of_source, double of_target) {
+    return (of_source * sources / static_cast<double>(there.points) +
+            of_target * targets / static_cast<double>(back.points)) /
+           (sources + targets);
+  };
+  return {share(there.matched, back.matched),
+          share(there.contradicted, back.contradicted),
+          0};
 }
 
 /** \brief From the sums over the one cloud whose sensor is known, and over the other. */
@@ -79,36 +104,65 @@ seenFromOne(const Sums& seeing,
   const double contradicting = seen.contradicted / static_cast<double>(seen.points) *
                                static_cast<double>(seen_points);
   return {seeing.matched / static_cast<double>(seeing.points),
-          std::min(1.0, contradicting / static_cast<double>(seeing_points))};
+          std::min(1.0, contradicting / static_cast<double>(seeing_points)),
+          0};
+}
+
+/** \brief CloudAgreement::residual */
+double
+residualOf(const Sums& there, const Sums& back, double spacing)
+{
+  const double matches = there.matches + back.matches;
+  return matches > 0 ? std::sqrt((there.squares + back.squares) / matches) / spacing
+                     : 0;
 }
 
 } // namespace
 
+Samples::Samples(const Surface& cloud, std::size_t most)
+{
+  const std::size_t count = std::min(most, cloud.points.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = k * cloud.points.size() / count;
+    points.push_back(cloud.points[i]);
+    normals.push_back(cloud.normals[i]);
+  }
+}
+
+Look::Look(const SurfacePair& clouds, std::size_t points, float tolerance, float margin)
+    : clouds_(clouds),
+      tolerance_(tolerance),
+      margin_(margin),
+      source_(clouds.source, points),
+      target_(clouds.target, points)
+{
+}
+
 CloudAgreement
-agreementOf(const SurfacePair& clouds, const Pose& pose, const Effort& effort)
+Look::operator()(const Pose& pose) const
 {
   const RigidFloat forward = toRigidFloat(pose);
-  const bool oriented = clouds.oriented();
-  const Sums there =
-      look(clouds.source, clouds.target, forward, clouds.spacing, oriented, effort);
-  const Sums back = look(
-      clouds.target, clouds.source, inverse(forward), clouds.spacing, oriented, effort);
-  const std::size_t sources = clouds.source.points.size();
-  const std::size_t targets = clouds.target.points.size();
-  if (clouds.seeing() && !oriented)
-    return clouds.source.free_space.known()
-               ? seenFromOne(there, sources, back, targets)
-               : seenFromOne(back, targets, there, sources);
-  // Each side counts by the number of its points, however many were looked at.
-  const auto source_points = static_cast<double>(sources);
-  const auto target_points = static_cast<double>(targets);
-  const auto share = [&](double of_source, double of_target) {
-    return (of_source * source_points / static_cast<double>(there.points) +
-            of_target * target_points / static_cast<double>(back.points)) /
-           (source_points + target_points);
-  };
-  return {share(there.matched, back.matched),
-          share(there.contradicted, back.contradicted)};
+  const bool oriented = clouds_.oriented();
+  const Sums there = sumUp(
+      source_, clouds_.target, forward, clouds_.spacing, oriented, tolerance_, margin_);
+  const Sums back = sumUp(target_,
+                          clouds_.source,
+                          inverse(forward),
+                          clouds_.spacing,
+                          oriented,
+                          tolerance_,
+                          margin_);
+  const std::size_t sources = clouds_.source.points.size();
+  const std::size_t targets = clouds_.target.points.size();
+  CloudAgreement agreement;
+  if (!clouds_.seeing() || oriented)
+    agreement = seenFromBoth(there, sources, back, targets);
+  else if (clouds_.source.free_space.known())
+    agreement = seenFromOne(there, sources, back, targets);
+  else
+    agreement = seenFromOne(back, targets, there, sources);
+  agreement.residual = residualOf(there, back, clouds_.spacing);
+  return agreement;
 }
 
 } // namespace pcl_flashreg

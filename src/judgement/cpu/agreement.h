@@ -5,7 +5,9 @@
 
 #include "judgement/cpu/surface.h"
 
+#include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace pcl_flashreg {
 
@@ -31,19 +33,46 @@ struct SurfacePair {
   }
 };
 
-/** \brief How thoroughly to look. */
-struct Effort {
-  /** \brief Points of either cloud at most, spread evenly over their numbers. */
-  std::size_t points;
-  /** \brief How far from a surface a point may be to match it, in spacings. */
-  float tolerance;
+/** \brief Points of a cloud, spread evenly over their numbers. */
+struct Samples {
+  Samples(const Surface& cloud, std::size_t most);
+
+  std::vector<Eigen::Vector3f> points, normals;
 };
 
-/** \brief Where one viewpoint alone is known, as that cloud sees it: of the other one (a map,
- * a model) there may be any amount out of its sight.
- * \param[in] pose T_target_source */
-CloudAgreement
-agreementOf(const SurfacePair& clouds, const Pose& pose, const Effort& effort);
+/** \brief How two clouds get on with each other under poses, by points of either that stand
+ * for the rest. */
+class Look {
+public:
+  /** \param[in] clouds that outlive this
+   * \param[in] points of either cloud at most
+   * \param[in] tolerance how far from a surface a point may be to match it, in spacings
+   * \param[in] margin how far in front of what was seen a point must be to contradict it, in
+   * spacings */
+  Look(const SurfacePair& clouds, std::size_t points, float tolerance, float margin);
+
+  /** \brief Where one viewpoint alone is known, as that cloud sees it: of the other one (a
+   * map, a model) there may be any amount out of its sight.
+   * \param[in] pose T_target_source */
+  CloudAgreement
+  operator()(const Pose& pose) const;
+
+private:
+  const SurfacePair& clouds_;
+  float tolerance_, margin_;
+  Samples source_, target_;
+};
+
+/** \brief Shares of points below which nothing can be told. */
+constexpr double NOTHING_TOLD = 0.01;
+
+/** \brief What the clouds say for a pose, as a logarithm. */
+inline double
+evidenceOf(const CloudAgreement& agreement, bool with_viewpoints)
+{
+  return std::log(agreement.matched + NOTHING_TOLD) -
+         (with_viewpoints ? std::log(agreement.contradicted + NOTHING_TOLD) : 0);
+}
 
 /** \brief The cosine of two normals; its absolute value where signs don't count. */
 inline float

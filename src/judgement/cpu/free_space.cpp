@@ -10,10 +10,6 @@
 namespace pcl_flashreg {
 namespace {
 
-/** \brief How far in front of the nearest surface space is called empty, in spacings: the
- * sensor may have moved during a scan, and neither surface nor pose is exact. */
-constexpr float MARGIN = 3;
-
 /** \brief Side of a pixel in spacings, at the median range. */
 constexpr float PIXEL = 1.5f;
 
@@ -48,7 +44,6 @@ FreeSpace::build(const std::vector<Eigen::Vector3f>& points,
   if (points.empty() || !viewpoint.allFinite())
     return;
   viewpoint_ = viewpoint;
-  margin_ = MARGIN * spacing;
   std::vector<float> ranges;
   for (const Eigen::Vector3f& point : points)
     ranges.push_back((point - viewpoint).norm());

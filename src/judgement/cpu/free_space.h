@@ -39,12 +39,12 @@ public:
   /** \brief Whether something was seen beyond this place, by more than the margin: then
    * there can be nothing here. */
   bool
-  contains(const Eigen::Vector3f& place) const
+  contains(const Eigen::Vector3f& place, float margin) const
   {
     if (!known())
       return false;
     const Eigen::Vector3f ray = place - viewpoint_;
-    const float limit = nearest_[pixelOf(ray)] - margin_;
+    const float limit = nearest_[pixelOf(ray)] - margin;
     return limit > 0 && ray.squaredNorm() < limit * limit;
   }
 
@@ -53,7 +53,6 @@ private:
   pixelOf(const Eigen::Vector3f& ray) const;
 
   Eigen::Vector3f viewpoint_ = Eigen::Vector3f::Zero();
-  float margin_ = 0;
   /** \brief Pixels along the edge of a face. */
   int edge_ = 0;
   /** \brief Per pixel the smallest range in it and the pixels around it; 0 where nothing

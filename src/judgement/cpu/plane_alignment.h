@@ -15,8 +15,4 @@ namespace pcl_flashreg {
 Pose
 moveOntoTarget(const SurfacePair& clouds, const Pose& pose);
 
-/** \brief Evidence::stiffness of a pose. */
-double
-stiffnessOf(const SurfacePair& clouds, const Pose& pose);
-
 } // namespace pcl_flashreg

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "judgement/cpu/contacts.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace pcl_flashreg {
+
+void
+findContacts(const SurfacePair& clouds,
+             const RigidFloat& pose,
+             const Reach& reach,
+             std::vector<Contact>& contacts)
+{
+  const Surface &source = clouds.source, &target = clouds.target;
+  const bool oriented = clouds.oriented();
+  const std::size_t count = std::min(reach.points, source.points.size());
+  const float limit = reach.radius * clouds.spacing;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = k * source.points.size() / count;
+    const Eigen::Vector3f place = pose * source.points[i];
+    const int neighbor = target.nearest.find(place);
+    if (neighbor < 0)
+      continue;
+    const Eigen::Vector3f offset = place - target.points[neighbor];
+    const Eigen::Vector3f& normal = target.normals[neighbor];
+    const float cosine =
+        alignmentOf(pose.rotation * source.normals[i], normal, oriented);
+    if (offset.squaredNorm() <= limit * limit && cosine >= reach.min_cosine)
+      contacts.push_back({place, normal, normal.dot(offset)});
+  }
+}
+
+Eigen::Vector3d
+middleOf(const std::vector<Contact>& contacts)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Contact& contact : contacts)
+    sum += contact.place.cast<double>();
+  return sum / static_cast<double>(contacts.size());
+}
+
+Eigen::Matrix<double, 6, 1>
+jacobianOf(const Contact& contact, const Eigen::Vector3d& arm)
+{
+  const Eigen::Vector3d normal = contact.normal.cast<double>();
+  Eigen::Matrix<double, 6, 1> jacobian;
+  jacobian << arm.cross(normal), normal;
+  return jacobian;
+}
+
+} // namespace pcl_flashreg

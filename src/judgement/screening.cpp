@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "judgement/screening.h"
+
+#include "judgement/displacement.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace pcl_flashreg {
+namespace {
+
+/** \brief A pose that has not been moved onto the surface yet is off by a spacing or two,
+ * which the wider tolerance makes up for. */
+constexpr float TOLERANCE = 2, MARGIN = 3;
+/** \brief Points of a cloud that are looked at first, and where that went well. */
+constexpr std::size_t GLANCE = 24, CLOSER_LOOK = 128;
+
+/** \brief Hypotheses that pass the first screening, and the second. */
+constexpr std::size_t AFTER_GLANCE = 400, AFTER_LOOK = 12;
+
+/** \brief Poses are the same if no corner of the cube around the source moves by more
+ * than this many spacings. */
+constexpr float SAME = 6;
+
+struct Ranked {
+  double evidence;
+  std::uint32_t hypothesis;
+};
+
+bool
+better(const Ranked& a, const Ranked& b)
+{
+  return a.evidence > b.evidence ||
+         (a.evidence == b.evidence && a.hypothesis < b.hypothesis);
+}
+
+double
+shareOf(const CloudAgreement& agreement)
+{
+  return agreement.matched /
+         (agreement.matched + agreement.contradicted + NOTHING_TOLD);
+}
+
+void
+rank(const Look& look,
+     const std::vector<Pose>& hypotheses,
+     std::vector<Ranked>& ranked,
+     ThreadPool& pool)
+{
+  constexpr std::size_t A_TASK = 32;
+  pool.forEach(
+      (ranked.size() + A_TASK - 1) / A_TASK, [&](std::size_t task, std::size_t) {
+        const std::size_t end = std::min(ranked.size(), (task + 1) * A_TASK);
+        for (std::size_t i = task * A_TASK; i < end; ++i)
+          ranked[i].evidence =
+              shareOf(look(hypotheses[ranked[i].hypothesis]));
+      });
+}
+
+} // namespace
+
+void
+screen(const SurfacePair& clouds,
+       const std::vector<Pose>& hypotheses,
+       double half_side,
+       std::vector<Pose>& list,
+       ThreadPool& pool)
+{
+  std::vector<Ranked> ranked(hypotheses.size());
+  for (std::size_t i = 0; i < ranked.size(); ++i)
+    ranked[i].hypothesis = static_cast<std::uint32_t>(i);
+  if (ranked.size() > AFTER_GLANCE) {
+    rank(Look(clouds, GLANCE, TOLERANCE, MARGIN), hypotheses, ranked, pool);
+    std::nth_element(
+        ranked.begin(), ranked.begin() + AFTER_GLANCE, ranked.end(), better);
+    ranked.resize(AFTER_GLANCE);
+  }
+  rank(Look(clouds, CLOSER_LOOK, TOLERANCE, MARGIN), hypotheses, ranked, pool);
+  std::sort(ranked.begin(), ranked.end(), better);
+  const std::size_t wanted = list.size() + AFTER_LOOK;
+  for (const Ranked& entry : ranked) {
+    if (list.size() == wanted)
+      return;
+    const Pose& pose = hypotheses[entry.hypothesis];
+    if (std::none_of(list.begin(), list.end(), [&](const Pose& other) {
+          return displacementOf(pose, other, half_side) < SAME * clouds.spacing;
+        }))
+      list.push_back(pose);
+  }
+}
+
+} // namespace pcl_flashreg

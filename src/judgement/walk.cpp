@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "judgement/walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_flashreg {
+namespace {
+
+/** \brief See Look. */
+constexpr std::size_t POINTS = 256;
+constexpr float TOLERANCE = 2, MARGIN = 3;
+
+constexpr std::size_t MOTIONS = 3;
+/** \brief A motion that the surfaces oppose more than this is not tried, unless it is the
+ * softest. */
+constexpr double SOFT = 0.06;
+
+/** \brief Steps to either side at most, and how long one is, in spacings. */
+constexpr int STEPS = 21;
+constexpr double STEP = 3;
+/** \brief See Walk::far, in spacings. */
+constexpr double FAR = 9;
+/** \brief No more than half a turn; of small things, in so many steps at least, a third of
+ * them near. */
+constexpr int STEPS_TO_HALF_TURN = 9;
+
+constexpr double PI = 3.14159265358979323846;
+
+Walk
+planned(const Motion& motion, const Pose& pose, float spacing)
+{
+  const double angle_a_way = motion.turn.norm();
+  const double half_turn =
+      angle_a_way > 0 ? PI / angle_a_way : std::numeric_limits<double>::infinity();
+  const double step = std::min(STEP * spacing, half_turn / STEPS_TO_HALF_TURN);
+  const int count = static_cast<int>(std::min<double>(STEPS, half_turn / step + 1e-6));
+  Walk walk{motion, {}, std::min(FAR * spacing, half_turn / 3) * (1 - 1e-6)};
+  for (int i = -count; i <= count; ++i)
+    walk.stops.push_back({i * step, moveAlong(pose, motion, i * step), {}});
+  return walk;
+}
+
+} // namespace
+
+double
+Walk::rise(bool with_viewpoints) const
+{
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Stop& stop : stops)
+    if (std::abs(stop.way) >= far)
+      highest = std::max(highest, evidenceOf(stop.agreement, with_viewpoints));
+  return highest - evidenceOf(start().agreement, with_viewpoints);
+}
+
+std::vector<Walk>
+walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool)
+{
+  std::vector<Walk> walks;
+  for (const Motion& motion : principalMotions(clouds, pose))
+    if (walks.empty() || (walks.size() < MOTIONS && motion.stiffness <= SOFT))
+      walks.push_back(planned(motion, pose, clouds.spacing));
+  std::vector<Stop*> stops;
+  for (Walk& walk : walks)
+    for (Stop& stop : walk.stops)
+      stops.push_back(&stop);
+  const Look look(clouds, POINTS, TOLERANCE, MARGIN);
+  pool.forEach(stops.size(), [&](std::size_t i, std::size_t) {
+    stops[i]->agreement = look(stops[i]->pose);
+  });
+  return walks;
+}
+
+std::vector<Pose>
+peaksOf(const std::vector<Walk>& walks, bool with_viewpoints, std::size_t most)
+{
+  struct Peak {
+    double height;
+    Pose pose;
+  };
+  std::vector<Peak> peaks;
+  for (const Walk& walk : walks) {
+    const auto height = [&](std::size_t i) {
+      return i < walk.stops.size()
+                 ? evidenceOf(walk.stops[i].agreement, with_viewpoints)
+                 : -std::numeric_limits<double>::infinity();
+    };
+    for (std::size_t i = 0; i < walk.stops.size(); ++i)
+      if (std::abs(walk.stops[i].way) >= walk.far && height(i) >= height(i - 1) &&
+          height(i) > height(i + 1))
+        peaks.push_back({height(i), walk.stops[i].pose});
+  }
+  std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) {
+    return a.height > b.height;
+  });
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < std::min(most, peaks.size()); ++i)
+    poses.push_back(peaks[i].pose);
+  return poses;
+}
+
+} // namespace pcl_flashreg

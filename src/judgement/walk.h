@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "judgement/cpu/principal_motions.h"
+#include "support/thread_pool.h"
+
+#include <vector>
+
+namespace pcl_flashreg {
+
+/** \brief What the clouds say some way off a pose. */
+struct Stop {
+  /** \brief In the unit of the clouds; below 0 on the other side. */
+  double way;
+  Pose pose;
+  CloudAgreement agreement;
+};
+
+/** \brief Off a pose and along a motion, to either side. */
+struct Walk {
+  Motion motion;
+  /** \brief Ascending; the one in the middle is the pose itself. */
+  std::vector<Stop> stops;
+  /** \brief From where on a pose is another one. */
+  double far = 0;
+
+  const Stop&
+  start() const
+  {
+    return stops[stops.size() / 2];
+  }
+
+  /** \brief By how much what speaks for a pose rises above the start's, far off. */
+  double
+  rise(bool with_viewpoints) const;
+};
+
+/** \brief Along the softest motion of a pose, and up to two others that are soft: where the
+ * clouds say the same all along, or again some way off, they don't say where the pose is. */
+std::vector<Walk>
+walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool);
+
+/** \brief Where clouds that were walked over say most, far off: at most `most` poses, the best
+ * first. */
+std::vector<Pose>
+peaksOf(const std::vector<Walk>& walks, bool with_viewpoints, std::size_t most);
+
+} // namespace pcl_flashreg
