@@ -58,11 +58,12 @@ def features_of_clouds(row):
         row["lead"],
         np.log(row["stiffness"] + 0.001),
         hold(row),
+        row["residual"],
     ]
 
 
 def features_without_viewpoints(row):
-    return features_of_clouds(row)[2:] + [row["residual"]]
+    return features_of_clouds(row)[2:]
 
 
 def logistic(x):
@@ -89,7 +90,7 @@ def needed_of_correspondences(row):
 
 def needed_of_clouds(row):
     return (
-        1 / (1 + row["rivals"])
+        1 / (1 + row["rivals"] ** 1.5)
         * logistic(8 * (row["hold"] - 0.2))
         * half_at(row["stiffness"], 0.004, 4)
         * logistic(3 * (1.2 - row["mirrored"]))

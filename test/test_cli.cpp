@@ -2,9 +2,11 @@
 // Copyright (c) the pcl_flashreg authors
 
 #include "cli_support.h"
+#include "support/made_places.h"
 
 #include <pcl_flashreg/estimator.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -352,6 +354,34 @@ TEST_F(CliTest, theCloudsHaveASayUnlessToldOtherwise)
   EXPECT_FALSE(fast.at("evidence").contains("matched"));
   EXPECT_GT(fast.at("evidence").at("inliers").get<double>(), 12);
   expectTruth(poseOf(fast));
+}
+
+TEST_F(CliTest, saysWhatIsFree)
+{
+  const made::Views views = made::corridor(3);
+  const auto write = [&](const char* name,
+                         const std::vector<double>& xyz,
+                         const Eigen::Vector3d& viewpoint) {
+    io::Cloud cloud = cloudOf(Eigen::Map<const Eigen::Matrix3Xd>(
+        xyz.data(), 3, static_cast<Eigen::Index>(xyz.size() / 3)));
+    std::copy_n(viewpoint.data(), 3, cloud.viewpoint.begin());
+    io::writeCloud(path(name), cloud);
+  };
+  write("a.pcd", views.source, views.source_viewpoint);
+  write("b.pcd", views.target, views.target_viewpoint);
+  const ProgramRun run = align("a.pcd b.pcd --leaf 0.15 --json j");
+  EXPECT_EQ(run.status, 1) << run.out;
+  EXPECT_NE(run.out.find("match as well where it is moved off"), std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("free        may slide along ("), std::string::npos)
+      << run.out;
+  const auto json = nlohmann::json::parse(read("j"));
+  const auto& free = json.at("free_motions").at(0);
+  EXPECT_EQ(free.at("kind"), "slide");
+  EXPECT_NEAR(std::abs(free.at("direction").at(0).get<double>()), 1, 0.01);
+  EXPECT_EQ(free.at("point").size(), 3u);
+  EXPECT_GT(free.at("forward").get<double>() + free.at("backward").get<double>(), 2);
+  EXPECT_LT(json.at("evidence").at("hold").get<double>(), 0.3);
 }
 
 TEST_F(CliTest, anUntrustedPoseIsNotWritten)

@@ -19,9 +19,9 @@ namespace {
 
 /** \brief Points of a cloud that judge each pose, and the best. */
 constexpr std::size_t POINTS = 1000, POINTS_FOR_BEST = 4000;
-/** \brief See Look. Moved onto the surface, a pose is exact enough for a thin margin, which
- * finds the better one; the evidence has to hold for noisier sensors, too. */
-constexpr float TOLERANCE = 1.5f, MARGIN = 1, MARGIN_OF_EVIDENCE = 2;
+/** \brief See Look. Moved onto the surface, a pose is exact enough for a thinner margin than
+ * while it is screened. */
+constexpr float TOLERANCE = 1.5f, MARGIN = 2;
 
 /** \brief Poses on the surface are the same if no corner of the cube around the source moves
  * by more than this many spacings, or than this share of its half side. */
@@ -34,6 +34,10 @@ constexpr double MAX_LEAD = 5, MAX_HOLD = 5;
  * another one then. */
 constexpr std::size_t TAKEN_UP = 4;
 constexpr int WALKS = 3;
+
+/** \brief A pose that is less certain than this does not overrule viewpoints, and one that is
+ * more certain with them than that is not overruled. */
+constexpr double LEAST_TO_OVERRULE = 0.01, NOT_TO_OVERRULE = 0.9;
 
 class CloudCheck {
 public:
@@ -167,8 +171,7 @@ private:
     evidence.has_clouds = true;
     evidence.has_viewpoints = with_viewpoints;
     evidence.one_viewpoint = with_viewpoints && !clouds_.oriented();
-    evidence.agreement =
-        Look(clouds_, POINTS_FOR_BEST, TOLERANCE, MARGIN_OF_EVIDENCE)(first.pose);
+    evidence.agreement = Look(clouds_, POINTS_FOR_BEST, TOLERANCE, MARGIN)(first.pose);
     evidence.lead = MAX_LEAD;
     for (std::size_t i = 1; i < findings.poses.size(); ++i) {
       const CheckedPose& other = findings.poses[i];
@@ -222,12 +225,14 @@ checkOnClouds(const SurfacePair& clouds,
   if (!clouds.seeing())
     return check.judge(false);
   CloudFindings seeing = check.judge(true);
+  if (confidenceOfClouds(seeing.evidence) > NOT_TO_OVERRULE)
+    return seeing;
   CloudFindings blind = check.judge(false);
   blind.evidence.overruled_viewpoints = true;
   // What is more certain without the viewpoints says that they are wrong.
-  return confidenceOfClouds(blind.evidence) > confidenceOfClouds(seeing.evidence)
-             ? blind
-             : seeing;
+  const double enough =
+      std::max(LEAST_TO_OVERRULE, confidenceOfClouds(seeing.evidence));
+  return confidenceOfClouds(blind.evidence) > enough ? blind : seeing;
 }
 
 } // namespace pcl_flashreg

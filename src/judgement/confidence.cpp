@@ -40,10 +40,10 @@ neededOfCorrespondences(const Evidence& e)
 double
 fromCorrespondences(const Evidence& e)
 {
-  return logistic(-11.56 + 3.23 * std::log(e.inliers + 1) +
-                  1.90 * std::log(e.inlier_ratio + 1e-4) +
-                  0.33 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
-                  1.66 * std::log(e.thickness + 1));
+  return logistic(-11.23 + 2.65 * std::log(e.inliers + 1) +
+                  1.52 * std::log(e.inlier_ratio + 1e-4) +
+                  2.88 * std::log((e.inliers + 1) / (e.rival_inliers + 3)) +
+                  2.90 * std::log(e.thickness + 1));
 }
 
 /** \brief Where a reflection explains more than any motion, no motion is right. */
@@ -58,8 +58,8 @@ notMirrored(const Evidence& e)
 double
 neededOfClouds(const Evidence& e)
 {
-  // No others that explain as much: one over their number, and its own.
-  const double alone = 1 / (1 + e.rivals);
+  // No others that explain as much: at most one over their number, and its own.
+  const double alone = 1 / (1 + std::pow(e.rivals, 1.5));
   // No way to move it and still explain as much.
   const double held = logistic(8 * (e.hold - 0.2));
   // Nor one that the surfaces don't oppose.
@@ -76,27 +76,28 @@ holdOf(const Evidence& e)
 double
 fromClouds(const Evidence& e)
 {
-  const CloudAgreement& a = e.agreement;
-  return logistic(-6.91 + 2.23 * std::log(a.matched + 0.01) -
-                  1.65 * std::log(a.contradicted / (a.matched + 0.01) + 0.01) +
-                  1.18 * std::log(e.inliers + 5) + 0.58 * e.lead +
-                  0.43 * std::log(e.stiffness + 0.001) + 1.48 * holdOf(e));
+  const double matched = e.agreement.matched + 0.01;
+  return logistic(-5.55 + 1.69 * std::log(matched) -
+                  1.69 * std::log(e.agreement.contradicted / matched + 0.01) +
+                  0.93 * std::log(e.inliers + 5) + 0.65 * e.lead +
+                  0.56 * std::log(e.stiffness + 0.001) + 1.76 * holdOf(e) -
+                  3.39 * e.agreement.residual);
 }
 
 double
 fromCloudsWithOneViewpoint(const Evidence& e)
 {
-  return logistic(-4.01 + 2.28 * std::log(e.inliers + 5) + 1.90 * e.lead +
-                  1.17 * std::log(e.stiffness + 0.001) + 1.73 * holdOf(e) -
-                  5.62 * e.agreement.residual);
+  return logistic(-3.54 + 1.96 * std::log(e.inliers + 5) + 1.19 * e.lead +
+                  0.97 * std::log(e.stiffness + 0.001) + 2.03 * holdOf(e) -
+                  5.66 * e.agreement.residual);
 }
 
 double
 fromCloudsWithoutViewpoints(const Evidence& e)
 {
-  return logistic(-6.21 + 2.40 * std::log(e.inliers + 5) + 2.83 * e.lead +
-                  0.79 * std::log(e.stiffness + 0.001) + 1.70 * holdOf(e) -
-                  5.36 * e.agreement.residual);
+  return logistic(-6.65 + 2.57 * std::log(e.inliers + 5) + 2.08 * e.lead +
+                  0.76 * std::log(e.stiffness + 0.001) + 1.55 * holdOf(e) -
+                  5.23 * e.agreement.residual);
 }
 
 double

@@ -64,8 +64,7 @@ freeMotionsOf(const std::vector<Walk>& walks, bool with_viewpoints)
     const double least = evidenceOf(walk.start().agreement, with_viewpoints) - FALL;
     const auto middle =
         walk.stops.begin() + static_cast<std::ptrdiff_t>(walk.stops.size() / 2);
-    const double forward =
-        freeWay(middle, walk.stops.end(), least, with_viewpoints);
+    const double forward = freeWay(middle, walk.stops.end(), least, with_viewpoints);
     const double backward = freeWay(std::make_reverse_iterator(middle + 1),
                                     walk.stops.rend(),
                                     least,

@@ -50,13 +50,12 @@ rank(const Look& look,
      ThreadPool& pool)
 {
   constexpr std::size_t A_TASK = 32;
-  pool.forEach(
-      (ranked.size() + A_TASK - 1) / A_TASK, [&](std::size_t task, std::size_t) {
-        const std::size_t end = std::min(ranked.size(), (task + 1) * A_TASK);
-        for (std::size_t i = task * A_TASK; i < end; ++i)
-          ranked[i].evidence =
-              shareOf(look(hypotheses[ranked[i].hypothesis]));
-      });
+  pool.forEach((ranked.size() + A_TASK - 1) / A_TASK,
+               [&](std::size_t task, std::size_t) {
+                 const std::size_t end = std::min(ranked.size(), (task + 1) * A_TASK);
+                 for (std::size_t i = task * A_TASK; i < end; ++i)
+                   ranked[i].evidence = shareOf(look(hypotheses[ranked[i].hypothesis]));
+               });
 }
 
 } // namespace

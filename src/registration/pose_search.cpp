@@ -118,7 +118,7 @@ PoseSearch::addSecondBest(const Parameters& parameters,
   if (leftover_.size < 3)
     return;
   const PoseEstimate second = backend_->run(leftover_,
-                                            withRivals(parameters, true),
+                                            withRivals(parameters, false),
                                             std::nullopt,
                                             /* with_candidates */ false,
                                             clock,

@@ -91,7 +91,8 @@ bottle(std::uint64_t seed)
            (high.radius - low.radius) * Eigen::Vector3d::UnitZ())
               .normalized();
       const Eigen::Vector3d point =
-          radius * out + Eigen::Vector3d(0, 0, low.height + t * (high.height - low.height));
+          radius * out +
+          Eigen::Vector3d(0, 0, low.height + t * (high.height - low.height));
       if (normal.dot(eye - point) > 0.2 * (eye - point).norm())
         RoomScans::append(xyz, point + 0.0005 * random.normal() * normal);
     }

@@ -30,9 +30,8 @@ contactsOf(const SurfacePair& clouds, const Pose& pose)
   findContacts(
       {clouds.target, clouds.source, clouds.spacing}, inverse(forward), TOUCHING, back);
   for (const Contact& contact : back)
-    contacts.push_back({forward * contact.place,
-                        forward.rotation * contact.normal,
-                        contact.residual});
+    contacts.push_back(
+        {forward * contact.place, forward.rotation * contact.normal, contact.residual});
   return contacts;
 }
 
