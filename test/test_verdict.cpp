@@ -251,6 +251,20 @@ TEST(Verdict, IsNoMoreCertainThanOneOfTwoPlacesThatLookAlike)
   EXPECT_GT(result.pose.evidence.rivals, 0.8);
 }
 
+TEST(Verdict, DoesNotFailForAViewpointThatIsWrong)
+{
+  const made::RoomScans scans;
+  ScanInput<double> source = scans.sourceInput(), target = scans.targetInput();
+  source.viewpoint = scans.T_target_source.inverse() * Eigen::Vector3d(2.6, 0.3, 0.2);
+  target.viewpoint = {1.0, 0.3, 0.9};
+  PairOptions options;
+  options.resolution = 0.05;
+  const PairResult result =
+      PairRegistration(BackendKind::Cpu, 1).align(source, target, options);
+  EXPECT_LT(scans.error(result.pose.T_target_source), 0.05);
+  EXPECT_TRUE(result.pose.converged) << result.pose.confidence;
+}
+
 TEST(Verdict, IsTheSameInBothDirections)
 {
   const made::RoomScans scans;
@@ -301,6 +315,9 @@ TEST(Verdict, IsLimitedByEachOfItsNeeds)
       evidence.has_viewpoints = viewpoints;
       evidence.one_viewpoint = one;
       EXPECT_GT(confidenceOf(evidence), 0.95);
+      worse = evidence;
+      worse.overruled_viewpoints = true;
+      EXPECT_LT(confidenceOf(worse), confidenceOf(evidence));
       worse = evidence;
       worse.stiffness = 0.004;
       EXPECT_LE(confidenceOf(worse), 0.5);
