@@ -98,19 +98,22 @@ private:
    *
    * Where a place looks the same from elsewhere, the clouds say so; more correspondences
    * then speak for one pose than for another because the scans' patterns of points meet
-   * there, so a few dozen for the other one are enough. */
+   * there. A few dozen for the other one are enough, and the more there are, the less
+   * the clouds have to agree. */
   static double
   loudnessOf(const CheckedPose& rival, const CheckedPose& pose, bool with_viewpoints)
   {
-    constexpr double BY_ALL = 4, BY_CLOUDS = 8, A_FEW_DOZEN = 60;
+    constexpr double BY_ALL = 4, BY_CLOUDS = 8, LEAST_BY_CLOUDS = 3, A_FEW_DOZEN = 60;
     const double lead =
         weightOf(pose, with_viewpoints) - weightOf(rival, with_viewpoints);
     const double lead_by_clouds = evidenceOf(pose.agreement, with_viewpoints) -
                                   evidenceOf(rival.agreement, with_viewpoints);
-    const double fourth = std::pow(rival.inlier_count / A_FEW_DOZEN, 4);
+    const double dozens = rival.inlier_count / A_FEW_DOZEN;
+    const double steepness =
+        std::clamp(BY_CLOUDS / std::max(dozens, 1e-3), LEAST_BY_CLOUDS, BY_CLOUDS);
+    const double supported = 1 - 1 / (1 + std::pow(dozens, 4));
     return std::max(std::exp(-BY_ALL * std::max(0.0, lead)),
-                    std::exp(-BY_CLOUDS * std::max(0.0, lead_by_clouds)) * fourth /
-                        (1 + fourth));
+                    supported * std::exp(-steepness * std::max(0.0, lead_by_clouds)));
   }
 
   std::size_t
