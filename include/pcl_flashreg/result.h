@@ -109,8 +109,8 @@ struct Evidence {
    * as a logarithm; at most 5, which is also its value where there is no other one. */
   double lead = 0;
   /** \brief How many other poses explain as much. One that explains less counts for
-   * exp(-4 lead), or, if a few dozen correspondences agree with it, for exp(-8 lead) by the
-   * clouds alone. */
+   * exp(-4 lead), or, if a few dozen correspondences agree with it, for exp(-q lead) by the
+   * clouds alone, q from 8 down to 3 the more they are. */
   double rivals = 0;
   /** \brief By how much, as a logarithm, what the clouds say falls at least where the source
    * is moved off along the motions that the surfaces oppose least; at most 5, and about 0 or
