@@ -6,7 +6,8 @@
 Reads CSV files of the methods flashreg_fast, flashreg, flashreg_source_viewpoint and
 flashreg_no_viewpoint. Four logistic regressions: correspondences alone, clouds with both
 viewpoints, with one, without, each times what every pose needs. Cross-validated by scene: a
-pair is judged by coefficients that no pair with a cloud of its source's scene had a part in. Needs numpy; --plot also matplotlib.
+pair is judged by coefficients that no pair with a cloud of its source's scene had a part in.
+Needs numpy; --plot also matplotlib.
 
     scripts/fit_confidence.py correspondences.csv clouds.csv clouds_without_viewpoints.csv
 """

@@ -282,6 +282,14 @@ TEST(Verdict, IsTheSameInBothDirections)
   EXPECT_NEAR(there.pose.evidence.hold, back.pose.evidence.hold, 0.3);
 }
 
+/** \brief The confidence where one piece of the evidence is another. */
+double
+confidenceWith(Evidence evidence, double Evidence::*piece, double value)
+{
+  evidence.*piece = value;
+  return confidenceOf(evidence);
+}
+
 TEST(Verdict, IsLimitedByEachOfItsNeeds)
 {
   Evidence evidence;
@@ -292,18 +300,10 @@ TEST(Verdict, IsLimitedByEachOfItsNeeds)
   evidence.mirrored = -5;
   const double p = confidenceOf(evidence);
   EXPECT_GT(p, 0.95);
-  Evidence worse = evidence;
-  worse.rival_inliers = 500;
-  EXPECT_LE(confidenceOf(worse), 0.5);
-  worse = evidence;
-  worse.breadth = 1;
-  EXPECT_LE(confidenceOf(worse), 0.5);
-  worse = evidence;
-  worse.log_chance = 0;
-  EXPECT_LE(confidenceOf(worse), 0.5);
-  worse = evidence;
-  worse.mirrored = 1.2;
-  EXPECT_LE(confidenceOf(worse), 0.5);
+  EXPECT_LE(confidenceWith(evidence, &Evidence::rival_inliers, 500), 0.5);
+  EXPECT_LE(confidenceWith(evidence, &Evidence::breadth, 1), 0.5);
+  EXPECT_LE(confidenceWith(evidence, &Evidence::log_chance, 0), 0.5);
+  EXPECT_LE(confidenceWith(evidence, &Evidence::mirrored, 1.2), 0.5);
 
   evidence.has_clouds = true;
   evidence.agreement.matched = 0.9;
@@ -315,24 +315,14 @@ TEST(Verdict, IsLimitedByEachOfItsNeeds)
       evidence.has_viewpoints = viewpoints;
       evidence.one_viewpoint = one;
       EXPECT_GT(confidenceOf(evidence), 0.95);
-      worse = evidence;
-      worse.overruled_viewpoints = true;
-      EXPECT_LT(confidenceOf(worse), confidenceOf(evidence));
-      worse = evidence;
-      worse.stiffness = 0.004;
-      EXPECT_LE(confidenceOf(worse), 0.5);
-      worse = evidence;
-      worse.hold = 0.2;
-      EXPECT_LE(confidenceOf(worse), 0.5);
-      worse = evidence;
-      worse.rivals = 2;
-      EXPECT_LE(confidenceOf(worse), 1.0 / 3);
-      worse = evidence;
-      worse.stiffness = 0;
-      EXPECT_EQ(confidenceOf(worse), 0);
-      worse = evidence;
-      worse.mirrored = 1.2;
-      EXPECT_LE(confidenceOf(worse), 0.5);
+      Evidence overruled = evidence;
+      overruled.overruled_viewpoints = true;
+      EXPECT_LT(confidenceOf(overruled), confidenceOf(evidence));
+      EXPECT_LE(confidenceWith(evidence, &Evidence::stiffness, 0.004), 0.5);
+      EXPECT_LE(confidenceWith(evidence, &Evidence::hold, 0.2), 0.5);
+      EXPECT_LE(confidenceWith(evidence, &Evidence::rivals, 2), 1.0 / 3);
+      EXPECT_EQ(confidenceWith(evidence, &Evidence::stiffness, 0), 0);
+      EXPECT_LE(confidenceWith(evidence, &Evidence::mirrored, 1.2), 0.5);
     }
 }
 

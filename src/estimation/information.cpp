@@ -3,6 +3,8 @@
 
 #include "estimation/information.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 namespace pcl_flashreg {
@@ -39,11 +41,16 @@ informationMatrix(const Problem& problem,
 }
 
 void
-forget(const Eigen::Matrix<double, 6, 1>& motion, InformationMatrix& information)
+forget(const FreeMotion& motion, InformationMatrix& information)
 {
+  Eigen::Matrix<double, 6, 1> screw;
+  if (motion.kind == FreeMotion::Kind::Turn)
+    screw << motion.direction, motion.point.cross(motion.direction);
+  else
+    screw << Eigen::Vector3d::Zero(), motion.direction;
   // What is left is singular along the motion, and the same for all that is conjugate to it.
-  const Eigen::Matrix<double, 6, 1> known = information * motion;
-  const double along = motion.dot(known);
+  const Eigen::Matrix<double, 6, 1> known = information * screw;
+  const double along = screw.dot(known);
   if (along > 0)
     information -= known * known.transpose() / along;
 }

@@ -24,9 +24,9 @@ informationMatrix(const Problem& problem,
                   const Vec3& target_centre,
                   double inlier_distance);
 
-/** \brief Takes out what is claimed to be known along a motion that is free.
- * \param[in] motion turn and shift, as in Result::information */
+/** \brief Takes out what is claimed to be known along a motion that is free, in the same
+ * frame. */
 void
-forget(const Eigen::Matrix<double, 6, 1>& motion, InformationMatrix& information);
+forget(const FreeMotion& motion, InformationMatrix& information);
 
 } // namespace pcl_flashreg

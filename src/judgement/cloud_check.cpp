@@ -51,7 +51,8 @@ public:
         inlier_distance_(inlier_distance),
         half_side_(half_side),
         pool_(pool),
-        look_(clouds, POINTS, TOLERANCE, MARGIN)
+        look_(clouds, POINTS, TOLERANCE, MARGIN),
+        look_closely_(clouds, POINTS_FOR_BEST, TOLERANCE, MARGIN)
   {
   }
 
@@ -75,14 +76,16 @@ public:
   judge(bool with_viewpoints)
   {
     std::size_t best = bestOf(with_viewpoints);
-    for (int left = WALKS; walk(best), left > 1; --left) {
+    walk(best);
+    for (int walks = 1; walks < WALKS; ++walks) {
       study(peaksOf(walks_, with_viewpoints, TAKEN_UP));
       const std::size_t now = bestOf(with_viewpoints);
       if (now == best)
         break;
       best = now;
+      walk(best);
     }
-    return findings(best, with_viewpoints);
+    return findings(with_viewpoints);
   }
 
 private:
@@ -146,14 +149,12 @@ private:
 
   /** \brief One of each, the best first. */
   std::vector<CheckedPose>
-  distinct(std::size_t best, bool with_viewpoints) const
+  distinct(bool with_viewpoints) const
   {
     std::vector<CheckedPose> sorted = checked_;
-    std::swap(sorted.front(), sorted[best]);
-    std::stable_sort(
-        sorted.begin() + 1, sorted.end(), [&](const auto& a, const auto& b) {
-          return weightOf(a, with_viewpoints) > weightOf(b, with_viewpoints);
-        });
+    std::stable_sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) {
+      return weightOf(a, with_viewpoints) > weightOf(b, with_viewpoints);
+    });
     std::vector<CheckedPose> poses;
     for (const CheckedPose& pose : sorted)
       if (std::none_of(poses.begin(), poses.end(), [&](const CheckedPose& other) {
@@ -164,17 +165,17 @@ private:
   }
 
   CloudFindings
-  findings(std::size_t best, bool with_viewpoints) const
+  findings(bool with_viewpoints) const
   {
     CloudFindings findings;
-    findings.poses = distinct(best, with_viewpoints);
+    findings.poses = distinct(with_viewpoints);
     const CheckedPose& first = findings.poses.front();
     Evidence& evidence = findings.evidence;
     evidence.inliers = first.inlier_count;
     evidence.has_clouds = true;
     evidence.has_viewpoints = with_viewpoints;
     evidence.one_viewpoint = with_viewpoints && !clouds_.oriented();
-    evidence.agreement = Look(clouds_, POINTS_FOR_BEST, TOLERANCE, MARGIN)(first.pose);
+    evidence.agreement = look_closely_(first.pose);
     evidence.lead = MAX_LEAD;
     for (std::size_t i = 1; i < findings.poses.size(); ++i) {
       const CheckedPose& other = findings.poses[i];
@@ -198,7 +199,7 @@ private:
   float inlier_distance_;
   double half_side_;
   ThreadPool& pool_;
-  Look look_;
+  Look look_, look_closely_;
   std::vector<CheckedPose> checked_;
   std::vector<Walk> walks_;
   std::size_t walked_from_ = NOWHERE;

@@ -53,8 +53,8 @@ notMirrored(const Evidence& e)
   return logistic(3 * (1.2 - e.mirrored));
 }
 
-/** \brief What every pose needs that clouds are to confirm, whatever else speaks for it: an even
- * chance for each that it just lacks. */
+/** \brief What every pose needs that clouds are to confirm, whatever else speaks for it: an
+ * even chance for each that it just lacks. */
 double
 neededOfClouds(const Evidence& e)
 {
@@ -63,7 +63,7 @@ neededOfClouds(const Evidence& e)
   // No way to move it and still explain as much.
   const double held = logistic(8 * (e.hold - 0.2));
   // Nor one that the surfaces don't oppose.
-  const double stiff = halfAt(e.stiffness, 0.004, 4);
+  const double stiff = halfAt(e.stiffness, NEEDED_STIFFNESS, 4);
   return alone * held * stiff;
 }
 

@@ -7,9 +7,13 @@
 
 namespace pcl_flashreg {
 
+/** \brief Stiffness below which the surfaces leave a pose free. */
+constexpr double NEEDED_STIFFNESS = 0.004;
+
 /** \brief Result::confidence: a logistic regression on the evidence, with one set of
  * coefficients for correspondences alone, one for clouds with both viewpoints, one for
- * clouds with one of them and one for clouds without. scripts/fit_confidence.py computes them. */
+ * clouds with one of them and one for clouds without. scripts/fit_confidence.py computes
+ * them. */
 double
 confidenceOf(const Evidence& evidence);
 

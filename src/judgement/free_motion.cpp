@@ -3,6 +3,8 @@
 
 #include "judgement/free_motion.h"
 
+#include "judgement/confidence.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,9 +14,6 @@ namespace {
 
 /** \brief What the clouds say has fallen, as a logarithm, where a way is not free any more. */
 constexpr double FALL = 0.3;
-/** \brief A motion that the surfaces oppose no more than this is free, whatever a walk found:
- * coarse points are no smooth surface. */
-constexpr double STIFFNESS = 0.004;
 
 /** \brief How far along the stops, which go off the pose, a way is free. */
 template <typename Iterator>
@@ -69,7 +68,9 @@ freeMotionsOf(const std::vector<Walk>& walks, bool with_viewpoints)
                                     walk.stops.rend(),
                                     least,
                                     with_viewpoints);
-    if (std::max(forward, backward) >= walk.far || walk.motion.stiffness < STIFFNESS)
+    // Coarse points are no smooth surface: a walk over them may find a slope that is none.
+    if (std::max(forward, backward) >= walk.far ||
+        walk.motion.stiffness < NEEDED_STIFFNESS)
       motions.push_back(describe(walk.motion, backward, forward));
   }
   return motions;

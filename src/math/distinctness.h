@@ -36,4 +36,14 @@ agreeOnCorner(
   return dot(d, d) <= limit * limit;
 }
 
+/** \brief Whether two poses are the same: they agree on all corners. */
+PCL_FLASHREG_HD inline bool
+samePose(const Pose& a, const Pose& b, float radius, float inlier_distance)
+{
+  for (int corner = 0; corner < CORNERS; ++corner)
+    if (!agreeOnCorner(a, b, radius, inlier_distance, corner))
+      return false;
+  return true;
+}
+
 } // namespace pcl_flashreg

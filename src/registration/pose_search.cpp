@@ -63,16 +63,6 @@ rivalInliers(const std::vector<ScoredPose>& hypotheses)
   return most;
 }
 
-/** \brief Not distinct, as in stage 7. */
-bool
-sameFor(const Problem& problem, const Pose& a, const Pose& b, float inlier_distance)
-{
-  for (int corner = 0; corner < CORNERS; ++corner)
-    if (!agreeOnCorner(a, b, problem.radius, inlier_distance, corner))
-      return false;
-  return true;
-}
-
 } // namespace
 
 PoseSearch::PoseSearch(BackendKind backend, unsigned num_threads)
@@ -126,7 +116,7 @@ PoseSearch::addSecondBest(const Parameters& parameters,
   std::vector<ScoredPose>& hypotheses = estimate.hypotheses;
   for (const ScoredPose& found : second.hypotheses) {
     if (std::any_of(hypotheses.begin(), hypotheses.end(), [&](const ScoredPose& other) {
-          return sameFor(problem_, found.pose, other.pose, limit);
+          return samePose(found.pose, other.pose, problem_.radius, limit);
         }))
       continue;
     const std::vector<int> inliers = inliersOf(problem_, found.pose, limit);
@@ -208,12 +198,7 @@ PoseSearch::fill(Result& result,
                                          parameters.inlier_distance);
   for (FreeMotion motion : findings.free_motions) {
     motion.point += toEigen(preparation_.target_centre);
-    Eigen::Matrix<double, 6, 1> screw;
-    if (motion.kind == FreeMotion::Kind::Turn)
-      screw << motion.direction, motion.point.cross(motion.direction);
-    else
-      screw << Eigen::Vector3d::Zero(), motion.direction;
-    forget(screw, result.information);
+    forget(motion, result.information);
     result.free_motions.push_back(motion);
   }
 }
@@ -273,9 +258,8 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
                                           clock,
                                           trace_);
     CloudFindings findings;
-    if (estimate.status == Status::Ok)
-      addSecondBest(parameters, estimate, clock);
     if (estimate.status == Status::Ok) {
+      addSecondBest(parameters, estimate, clock);
       std::vector<Pose> motions{estimate.hypotheses.front().pose};
       if (clouds)
         askClouds(prepareClouds(*clouds), parameters, estimate, findings);

@@ -14,17 +14,6 @@
 namespace pcl_flashreg {
 namespace cpu {
 
-/** \brief Whether two poses put the corners of the cube around the source points to
- * nearly the same places. */
-bool
-Stages::sameWithinReach(const Pose& a, const Pose& b) const
-{
-  for (int corner = 0; corner < CORNERS; ++corner)
-    if (!agreeOnCorner(a, b, problem_->radius, parameters_->inlier_distance, corner))
-      return false;
-  return true;
-}
-
 /** \brief Up to refinement_iterations rounds of alignment with weights
  * 1 / (1 + (d / inlier_distance)^2) over the current inliers, until their number no
  * longer changes. */
@@ -114,7 +103,8 @@ Stages::refinement()
     ++refinements;
     const ScoredPose refined = refine(poses_[i]);
     if (std::any_of(listed_.begin(), listed_.end(), [&](const ScoredPose& other) {
-          return sameWithinReach(other.pose, refined.pose);
+          return samePose(
+              other.pose, refined.pose, problem_->radius, parameters_->inlier_distance);
         }))
       continue;
     std::copy(inlier_words_.begin(),

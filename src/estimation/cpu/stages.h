@@ -136,8 +136,6 @@ private:
   ScoredPose
   refine(const Pose& start);
   bool
-  sameWithinReach(const Pose& a, const Pose& b) const;
-  bool
   explained(std::size_t i, std::size_t listed) const;
   std::vector<std::uint32_t>
   rankHypotheses() const;

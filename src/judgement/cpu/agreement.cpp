@@ -26,18 +26,19 @@ struct Sums {
   std::size_t points = 0;
 };
 
+/** \brief What counts as what; lengths in the unit of the clouds. */
+struct Limits {
+  float match, touch, margin;
+  bool oriented;
+};
+
 Sums
 sumUp(const Samples& from,
       const Surface& to,
       const RigidFloat& pose,
-      float spacing,
-      bool oriented,
-      float tolerance,
-      float margin)
+      const Limits& limits)
 {
   constexpr std::size_t A_BLOCK = 64;
-  const float limit = tolerance * spacing;
-  const float touching = TOUCHING * spacing;
   Sums sums;
   sums.points = from.points.size();
   Eigen::Vector3f places[A_BLOCK];
@@ -53,28 +54,29 @@ sumUp(const Samples& from,
       const Eigen::Vector3f& place = places[k];
       if (const int neighbor = neighbors[k]; neighbor >= 0) {
         const float squared = (place - to.points[neighbor]).squaredNorm();
-        const float cosine = alignmentOf(
-            pose.rotation * from.normals[first + k], to.normals[neighbor], oriented);
-        if (squared < limit * limit && cosine > MIN_COSINE) {
+        const float cosine = alignmentOf(pose.rotation * from.normals[first + k],
+                                         to.normals[neighbor],
+                                         limits.oriented);
+        if (squared < limits.match * limits.match && cosine > MIN_COSINE) {
           // 1 - (d / tolerance)^2 of the distance to the tangent plane.
           const float off = to.normals[neighbor].dot(place - to.points[neighbor]);
-          const float relative = off / limit;
+          const float relative = off / limits.match;
           sums.matched += cosine * std::max(0.0f, 1 - relative * relative);
           sums.matches += 1;
           sums.squares += off * off;
           continue;
         }
-        if (squared < touching * touching)
+        if (squared < limits.touch * limits.touch)
           continue;
       }
-      sums.contradicted += to.free_space.contains(place, margin * spacing) ? 1 : 0;
+      sums.contradicted += to.free_space.contains(place, limits.margin) ? 1 : 0;
     }
   }
   return sums;
 }
 
-/** \brief From the sums over both clouds: each side counts by the number of its points, however many
- * were looked at. */
+/** \brief From the sums over both clouds: each side counts by the number of its points,
+ * however many were looked at. */
 CloudAgreement
 seenFromBoth(const Sums& there,
              std::size_t source_points,
@@ -142,26 +144,21 @@ CloudAgreement
 Look::operator()(const Pose& pose) const
 {
   const RigidFloat forward = toRigidFloat(pose);
-  const bool oriented = clouds_.oriented();
-  const Sums there = sumUp(
-      source_, clouds_.target, forward, clouds_.spacing, oriented, tolerance_, margin_);
-  const Sums back = sumUp(target_,
-                          clouds_.source,
-                          inverse(forward),
-                          clouds_.spacing,
-                          oriented,
-                          tolerance_,
-                          margin_);
+  const float spacing = clouds_.spacing;
+  const Limits limits{
+      tolerance_ * spacing, TOUCHING * spacing, margin_ * spacing, clouds_.oriented()};
+  const Sums there = sumUp(source_, clouds_.target, forward, limits);
+  const Sums back = sumUp(target_, clouds_.source, inverse(forward), limits);
   const std::size_t sources = clouds_.source.points.size();
   const std::size_t targets = clouds_.target.points.size();
   CloudAgreement agreement;
-  if (!clouds_.seeing() || oriented)
+  if (!clouds_.seeing() || limits.oriented)
     agreement = seenFromBoth(there, sources, back, targets);
   else if (clouds_.source.free_space.known())
     agreement = seenFromOne(there, sources, back, targets);
   else
     agreement = seenFromOne(back, targets, there, sources);
-  agreement.residual = residualOf(there, back, clouds_.spacing);
+  agreement.residual = residualOf(there, back, spacing);
   return agreement;
 }
 
