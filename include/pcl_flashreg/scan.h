@@ -34,6 +34,16 @@ enum class ScanContent {
   Surface
 };
 
+/** \brief How it is known where the sensor stood. */
+enum class ViewpointSource {
+  /** \brief It is not: nobody said so, or the points were seen from many places. */
+  Unknown,
+  /** \brief It was stated, and the points agree. */
+  Stated,
+  /** \brief It was stated, but the points were not seen from there: they say from where. */
+  Points
+};
+
 /** \brief A file is not what Scan::save() wrote, or can't be read or written. */
 class PCL_FLASHREG_EXPORT ScanFileError : public std::runtime_error {
 public:
@@ -105,6 +115,12 @@ public:
     return viewpoint_;
   }
 
+  ViewpointSource
+  viewpointSource() const
+  {
+    return viewpoint_source_;
+  }
+
   /** \brief A keypoint in the caller's frame. */
   Eigen::Vector3d
   point(std::size_t i) const
@@ -143,11 +159,13 @@ public:
   /** \brief The arrays; known to the library alone. */
   struct Data;
   Scan(std::shared_ptr<const Data> data,
-       const std::optional<Eigen::Vector3d>& viewpoint);
+       const Eigen::Vector3d& viewpoint,
+       ViewpointSource source);
 
 private:
   std::shared_ptr<const Data> data_;
   std::optional<Eigen::Vector3d> viewpoint_;
+  ViewpointSource viewpoint_source_ = ViewpointSource::Unknown;
 };
 
 /** \brief What somebody has of one cloud, for a Scan to be made from; nothing is copied or

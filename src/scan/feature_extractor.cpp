@@ -83,11 +83,13 @@ FeatureExtractor::describe(const PointView& points,
   check(points);
   parameters.validate();
   FeatureTimings spent;
-  runScanPipeline(
-      impl_->stages, points, {}, parameters, ScanContent::Descriptors, spent);
+  cpu::FeatureStages& stages = impl_->stages;
+  findSurface(stages, points, {}, parameters, ScanContent::Descriptors, spent);
+  stages.turnNormals(Eigen::Map<const Eigen::Vector3f>(parameters.viewpoint), true);
+  describeSurface(stages, parameters, spent);
   if (timings)
     *timings = spent;
-  return impl_->stages.takeResult(ScanContent::Descriptors, false);
+  return stages.takeResult(ScanContent::Descriptors, false);
 }
 
 } // namespace pcl_flashreg

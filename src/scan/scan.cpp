@@ -12,9 +12,12 @@ namespace pcl_flashreg {
 Scan::Scan() : data_(std::make_shared<const Data>()) {}
 
 Scan::Scan(std::shared_ptr<const Data> data,
-           const std::optional<Eigen::Vector3d>& viewpoint)
-    : data_(std::move(data)), viewpoint_(viewpoint)
+           const Eigen::Vector3d& viewpoint,
+           ViewpointSource source)
+    : data_(std::move(data)), viewpoint_source_(source)
 {
+  if (source != ViewpointSource::Unknown)
+    viewpoint_ = viewpoint;
 }
 
 std::size_t
@@ -70,7 +73,7 @@ Scan::shift() const
 Scan
 Scan::withoutViewpoint() const
 {
-  return {data_, std::nullopt};
+  return {data_, Eigen::Vector3d::Zero(), ViewpointSource::Unknown};
 }
 
 } // namespace pcl_flashreg

@@ -25,7 +25,7 @@ constexpr char MAGIC[8] = {'f', 'l', 's', 'c', 'a', 'n', '\r', '\n'};
 constexpr std::uint32_t VERSION = 1;
 constexpr std::uint32_t BYTE_ORDER_MARK = 0x01020304;
 constexpr std::size_t ALIGNMENT = 64;
-constexpr std::uint64_t HAS_VIEWPOINT = 1, HAS_ORIGINS = 2;
+constexpr std::uint64_t HAS_VIEWPOINT = 1, HAS_ORIGINS = 2, VIEWPOINT_FROM_POINTS = 4;
 
 struct Header {
   char magic[8];
@@ -102,7 +102,9 @@ checkedHeader(std::string_view bytes)
     throw ScanFileError("has format " + std::to_string(header.version) +
                         ", this version of the library reads format " +
                         std::to_string(VERSION));
-  if (header.flags & ~(HAS_VIEWPOINT | HAS_ORIGINS))
+  const bool from_points = (header.flags & VIEWPOINT_FROM_POINTS) != 0;
+  if ((header.flags & ~(HAS_VIEWPOINT | HAS_ORIGINS | VIEWPOINT_FROM_POINTS)) != 0 ||
+      (from_points && (header.flags & HAS_VIEWPOINT) == 0))
     throw ScanFileError("is damaged: it claims to hold what no scan has");
   constexpr std::uint64_t MOST_ROWS = std::numeric_limits<std::int32_t>::max();
   constexpr std::uint64_t MOST_VALUES = 1 << 20;
@@ -159,7 +161,8 @@ Scan::serialize() const
   header.size = data.size();
   header.dimension = data.dimension;
   header.flags =
-      (viewpoint_ ? HAS_VIEWPOINT : 0) | (data.origins.empty() ? 0 : HAS_ORIGINS);
+      (viewpoint_ ? HAS_VIEWPOINT : 0) | (data.origins.empty() ? 0 : HAS_ORIGINS) |
+      (viewpoint_source_ == ViewpointSource::Points ? VIEWPOINT_FROM_POINTS : 0);
   header.spacing = data.spacing;
   Eigen::Map<Eigen::Vector3d>(header.shift) = data.shift;
   if (viewpoint_)
@@ -200,10 +203,11 @@ Scan::deserialize(std::string_view bytes)
   take(bytes, n * data->dimension, data->descriptors);
   take(bytes, header.flags & HAS_ORIGINS ? n : 0, data->origins);
   checkContents(header, *data);
-  std::optional<Eigen::Vector3d> viewpoint;
+  ViewpointSource source = ViewpointSource::Unknown;
   if (header.flags & HAS_VIEWPOINT)
-    viewpoint = Eigen::Map<const Eigen::Vector3d>(header.viewpoint);
-  return {data, viewpoint};
+    source = header.flags & VIEWPOINT_FROM_POINTS ? ViewpointSource::Points
+                                                  : ViewpointSource::Stated;
+  return {data, Eigen::Map<const Eigen::Vector3d>(header.viewpoint), source};
 }
 
 void

@@ -5,6 +5,7 @@
 
 #include "scan/points.h"
 #include "scan/scan_data.h"
+#include "scan/viewpoint.h"
 #include "support/require.h"
 
 #include <pcl_flashreg/resolution.h>
@@ -114,9 +115,9 @@ PreparedInput::PreparedInput(const ScanInput<Scalar>& input)
   shift = singlePrecisionShift(input.points);
   if (!shift.isZero(0) && viewpoint.isZero(0)) {
     viewpoint = shift;
-    viewpoint_known = false;
+    viewpoint_possible = false;
   }
-  normals = {input.normals, input.normal_stride, viewpoint_known};
+  normals = {input.normals, input.normal_stride};
   const BasicPointView<Scalar>& given = input.points;
   if constexpr (std::is_same_v<Scalar, float>)
     if (shift.isZero(0)) {
@@ -152,8 +153,6 @@ ScanMaker::make(const PreparedInput& input,
   if (input.made && input.made->spacing() == resolution &&
       wants_features == (input.made->features().dimension > 0))
     return *input.made;
-  Eigen::Map<Eigen::Vector3f>(parameters.viewpoint) =
-      (input.viewpoint - input.shift).cast<float>();
   const auto data = std::make_shared<Scan::Data>();
   data->spacing = resolution;
   data->shift = input.shift;
@@ -163,7 +162,13 @@ ScanMaker::make(const PreparedInput& input,
     content = ScanContent::Surface;
     keepRows(input, *data);
   }
-  runScanPipeline(stages_, input.points, input.normals, parameters, content, timings);
+  findSurface(stages_, input.points, input.normals, parameters, content, timings);
+  Seen seen;
+  double turning = 0;
+  timeStep(turning, [&] { seen = turnToViewpoint(input, resolution); });
+  timings.normals += turning;
+  if (content == ScanContent::Descriptors)
+    describeSurface(stages_, parameters, timings);
   DescribedCloud keypoints = stages_.takeResult(content, are_keypoints);
   data->points = std::move(keypoints.points);
   data->normals = std::move(keypoints.normals);
@@ -172,8 +177,25 @@ ScanMaker::make(const PreparedInput& input,
     data->descriptors = std::move(keypoints.descriptors);
     data->dimension = keypoints.features().dimension;
   }
-  const std::optional<Eigen::Vector3d> nowhere;
-  return {data, input.viewpoint_known ? input.viewpoint : nowhere};
+  return {data, seen.from, seen.source};
+}
+
+ScanMaker::Seen
+ScanMaker::turnToViewpoint(const PreparedInput& input, double resolution)
+{
+  const Eigen::Vector3f stated = (input.viewpoint - input.shift).cast<float>();
+  // Nobody needs a place: given normals stay as they are.
+  if (!input.viewpoint_known && !stages_.hasComputedNormals())
+    return {input.viewpoint, ViewpointSource::Unknown};
+  const cpu::Visibility visibility = stages_.visibility(VIEWPOINT_ELEMENTS, resolution);
+  const FoundViewpoint found =
+      findViewpoint(visibility, stated, input.viewpoint_possible, pool_);
+  stages_.turnNormals(found.place, input.viewpoint_known && found.is_stated);
+  Seen seen{found.is_stated ? input.viewpoint
+                            : input.shift + found.place.cast<double>()};
+  if (input.viewpoint_known && found.sees_all)
+    seen.source = found.is_stated ? ViewpointSource::Stated : ViewpointSource::Points;
+  return seen;
 }
 
 } // namespace pcl_flashreg

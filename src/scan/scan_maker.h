@@ -24,6 +24,8 @@ struct PreparedInput {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   Eigen::Vector3d viewpoint;
   bool viewpoint_known;
+  /** \brief Whether anybody can have looked from so far. */
+  bool viewpoint_possible = true;
   GivenNormals normals;
   FeatureView features;
   const Scan* made;
@@ -41,7 +43,10 @@ estimateResolution(const PreparedInput& input);
 /** \brief Makes scans, with threads that it is lent and memory of its own. */
 class ScanMaker {
 public:
-  explicit ScanMaker(ThreadPool& pool) : stages_(cpu::selectKernels(), pool) {}
+  explicit ScanMaker(ThreadPool& pool)
+      : pool_(pool), stages_(cpu::selectKernels(), pool)
+  {
+  }
 
   /** \throws std::invalid_argument if the resolution is no length, or too small for the
    * extent of the cloud */
@@ -52,6 +57,16 @@ public:
        FeatureTimings& timings);
 
 private:
+  struct Seen {
+    Eigen::Vector3d from;
+    ViewpointSource source = ViewpointSource::Unknown;
+  };
+
+  /** \brief Where the surface was seen from, and its normals turned there. */
+  Seen
+  turnToViewpoint(const PreparedInput& input, double resolution);
+
+  ThreadPool& pool_;
   cpu::FeatureStages stages_;
 };
 

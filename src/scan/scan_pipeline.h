@@ -14,8 +14,6 @@ struct GivenNormals {
   /** \brief Null where there are none. */
   const float* data = nullptr;
   std::size_t stride = 3;
-  /** \brief Whether to turn them to the viewpoint, as computed ones always are. */
-  bool orient = false;
 
   const float*
   of(std::size_t point) const
@@ -24,37 +22,49 @@ struct GivenNormals {
   }
 };
 
-/** \brief From a cloud to its keypoints, their normals and descriptors, once for every
+/** \brief Runs a step and books its time. */
+template <typename Step>
+void
+timeStep(double& milliseconds, const Step& step)
+{
+  const detail::Stopwatch watch;
+  step();
+  milliseconds = watch.milliseconds();
+}
+
+/** \brief From a cloud to its keypoints with normals of either sign, once for every
  * backend; the result stays in the stages.
  * \tparam Stages a backend's buffers and its form of every step
  */
 template <typename Stages>
 void
-runScanPipeline(Stages& stages,
-                const PointView& points,
-                const GivenNormals& normals,
+findSurface(Stages& stages,
+            const PointView& points,
+            const GivenNormals& normals,
+            const FeatureParameters& parameters,
+            ScanContent content,
+            FeatureTimings& timings)
+{
+  const double reach = content == ScanContent::Descriptors ? parameters.feature_radius
+                                                           : parameters.normal_radius;
+  timeStep(timings.voxel_grid,
+           [&] { stages.voxelGrid(points, parameters.voxel_size); });
+  timeStep(timings.neighbor_grid, [&] { stages.neighborGrid(reach); });
+  timeStep(timings.normals,
+           [&] { stages.normals(points, normals, parameters.normal_radius); });
+}
+
+/** \brief From keypoints whose normals have been turned to their descriptors. */
+template <typename Stages>
+void
+describeSurface(Stages& stages,
                 const FeatureParameters& parameters,
-                ScanContent content,
                 FeatureTimings& timings)
 {
-  const auto timed = [](double& milliseconds, const auto& step) {
-    const detail::Stopwatch watch;
-    step();
-    milliseconds = watch.milliseconds();
-  };
-  const bool describe = content == ScanContent::Descriptors;
-  const double reach = describe ? parameters.feature_radius : parameters.normal_radius;
-  timed(timings.voxel_grid, [&] { stages.voxelGrid(points, parameters.voxel_size); });
-  timed(timings.neighbor_grid, [&] { stages.neighborGrid(reach); });
-  timed(timings.normals, [&] {
-    stages.normals(points, normals, parameters.normal_radius, parameters.viewpoint);
-  });
-  if (!describe)
-    return;
-  timed(timings.point_histograms,
-        [&] { stages.pointHistograms(parameters.feature_radius); });
-  timed(timings.feature_histograms,
-        [&] { stages.featureHistograms(parameters.feature_radius); });
+  timeStep(timings.point_histograms,
+           [&] { stages.pointHistograms(parameters.feature_radius); });
+  timeStep(timings.feature_histograms,
+           [&] { stages.featureHistograms(parameters.feature_radius); });
 }
 
 } // namespace pcl_flashreg

@@ -5,6 +5,7 @@
 
 #include "support/aligned_buffer.h"
 #include "scan/cpu/neighbor_grid.h"
+#include "scan/cpu/visibility.h"
 #include "scan/cpu/voxel_grid.h"
 #include "scan/scan_pipeline.h"
 #include "simd/kernels.h"
@@ -33,12 +34,20 @@ public:
   void
   neighborGrid(double radius);
   /** \brief Normals of the keypoints, the mean of those given in a voxel, or else
-   * computed; keypoints that have none leave the grid. */
+   * computed, of either sign; keypoints that have none leave the grid. */
   void
-  normals(const PointView& points,
-          const GivenNormals& given,
-          double radius,
-          const float viewpoint[3]);
+  normals(const PointView& points, const GivenNormals& given, double radius);
+  /** \brief At most so many keypoints with their normals, spread over all of the surface:
+   * what tells where it was seen from.
+   * \param[in] spacing distance of neighbouring keypoints, > 0 */
+  Visibility
+  visibility(std::size_t most, double spacing) const;
+  /** \brief Turns computed normals towards a place, and given ones if asked to. */
+  void
+  turnNormals(const Eigen::Vector3f& viewpoint, bool given_too);
+  /** \brief Whether there are normals that nobody gave. */
+  bool
+  hasComputedNormals() const;
   /** \brief Simplified point feature histograms. */
   void
   pointHistograms(double radius);
@@ -79,6 +88,8 @@ private:
   std::vector<Neighbors> neighbors_;
   /** \brief In the order of the grid, as the rest. */
   std::vector<float> curvatures_;
+  enum class NormalSource : char { None, Given, Computed };
+  std::vector<NormalSource> normal_sources_;
   /** \brief Rows of HISTOGRAM_STRIDE. */
   AlignedBuffer<float> point_histograms_, feature_histograms_;
 };

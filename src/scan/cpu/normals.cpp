@@ -2,7 +2,7 @@
 // Copyright (c) the pcl_flashreg authors
 
 // Normals as pcl::NormalEstimation defines them: the direction in which a neighbourhood
-// is spread least, turned towards the viewpoint; or those that came with the points.
+// is spread least; or those that came with the points. And where they point to.
 
 #include "scan/cpu/feature_stages.h"
 #include "math/symmetric3.h"
@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace pcl_flashreg {
 namespace cpu {
@@ -61,36 +63,34 @@ FeatureStages::sumNormals(const PointView& points, const GivenNormals& given) co
 void
 FeatureStages::normals(const PointView& points,
                        const GivenNormals& given,
-                       double radius,
-                       const float viewpoint[3])
+                       double radius)
 {
   constexpr std::size_t FEWEST_NEIGHBORS = 3;
   const std::vector<Vec3> sums = sumNormals(points, given);
   curvatures_.assign(grid_.size(), 0);
-  std::vector<char> has_normal(grid_.size(), 0);
+  normal_sources_.assign(grid_.size(), NormalSource::None);
   const SurfaceArrays arrays = grid_.arrays();
-  const auto set = [&](std::size_t i, Vec3 normal, bool orient) {
-    const Vec3 to_sensor{static_cast<double>(viewpoint[0]) - arrays.x[i],
-                         static_cast<double>(viewpoint[1]) - arrays.y[i],
-                         static_cast<double>(viewpoint[2]) - arrays.z[i]};
-    if (orient && dot(to_sensor, normal) < 0)
-      normal = -1.0 * normal;
+  const auto set = [&](std::size_t i, const Vec3& normal, NormalSource source) {
     grid_.setNormal(i,
                     static_cast<float>(normal.x),
                     static_cast<float>(normal.y),
                     static_cast<float>(normal.z));
-    has_normal[i] = 1;
+    normal_sources_[i] = source;
   };
   for (std::size_t i = 0; i < grid_.size() && !sums.empty(); ++i)
     if (Vec3 normal = sums[grid_.row(i)]; normalize(normal))
-      set(i, normal, given.orient);
-  const bool complete =
-      std::find(has_normal.begin(), has_normal.end(), 0) == has_normal.end();
+      set(i, normal, NormalSource::Given);
+  const auto missing = [this](std::size_t i) {
+    return normal_sources_[i] == NormalSource::None;
+  };
+  bool complete = true;
+  for (std::size_t i = 0; i < grid_.size(); ++i)
+    complete = complete && !missing(i);
   if (complete)
     return;
 
   forEachPoint(radius, [&](std::size_t i, Neighbors& around) {
-    if (has_normal[i] || around.count < FEWEST_NEIGHBORS)
+    if (!missing(i) || around.count < FEWEST_NEIGHBORS)
       return;
     const float point[3] = {arrays.x[i], arrays.y[i], arrays.z[i]};
     const std::size_t padded = padNeighbors(
@@ -102,12 +102,68 @@ FeatureStages::normals(const PointView& points,
     Vec3 normal;
     if (!smallestEigenvector(spread, smallest, normal))
       return;
-    set(i, normal, true);
+    set(i, normal, NormalSource::Computed);
     curvatures_[i] = static_cast<float>(smallest / (spread.xx + spread.yy + spread.zz));
   });
   for (std::size_t i = 0; i < grid_.size(); ++i)
-    if (!has_normal[i])
+    if (missing(i))
       grid_.remove(i);
+}
+
+bool
+FeatureStages::hasComputedNormals() const
+{
+  return std::find(normal_sources_.begin(),
+                   normal_sources_.end(),
+                   NormalSource::Computed) != normal_sources_.end();
+}
+
+void
+FeatureStages::turnNormals(const Eigen::Vector3f& viewpoint, bool given_too)
+{
+  const SurfaceArrays arrays = grid_.arrays();
+  for (std::size_t i = 0; i < grid_.size(); ++i) {
+    const NormalSource source = normal_sources_[i];
+    if (source == NormalSource::None || (source == NormalSource::Given && !given_too))
+      continue;
+    const float nx = arrays.nx[i], ny = arrays.ny[i], nz = arrays.nz[i];
+    const Vec3 to_sensor{static_cast<double>(viewpoint.x()) - arrays.x[i],
+                         static_cast<double>(viewpoint.y()) - arrays.y[i],
+                         static_cast<double>(viewpoint.z()) - arrays.z[i]};
+    if (dot(to_sensor, {nx, ny, nz}) < 0)
+      grid_.setNormal(i, -nx, -ny, -nz);
+  }
+}
+
+Visibility
+FeatureStages::visibility(std::size_t most, double spacing) const
+{
+  // Share of the smallest eigenvalue: above it lie leaves, cables, edges.
+  constexpr float SOLID = 0.05f;
+  std::vector<std::uint32_t> places;
+  for (std::size_t i = 0; i < grid_.size(); ++i)
+    if (!grid_.isRemoved(i))
+      places.push_back(static_cast<std::uint32_t>(i));
+  // Steps of the golden section, which leave no large gap however many are taken.
+  const std::size_t n = places.size();
+  auto step = std::max<std::size_t>(1, static_cast<std::size_t>(0.6180339887 * n));
+  while (std::gcd(step, n) > 1)
+    ++step;
+  const SurfaceArrays arrays = grid_.arrays();
+  std::vector<SurfaceElement> elements;
+  elements.reserve(std::min(most, n));
+  for (std::size_t k = 0; k < std::min(most, n); ++k) {
+    const std::uint32_t i = places[k * step % n];
+    SurfaceElement element;
+    element.point = {arrays.x[i], arrays.y[i], arrays.z[i]};
+    element.normal = {arrays.nx[i], arrays.ny[i], arrays.nz[i]};
+    if (voxel_size_ > 0)
+      element.log_count =
+          std::log(static_cast<float>(voxel_grid_.countIn(grid_.row(i))));
+    element.solid = curvatures_[i] < SOLID;
+    elements.push_back(element);
+  }
+  return Visibility(std::move(elements), n, static_cast<float>(spacing));
 }
 
 } // namespace cpu

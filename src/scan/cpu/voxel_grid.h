@@ -101,6 +101,13 @@ public:
   std::vector<Vec3>
   sumNormals(const PointView& points, const GivenNormals& normals) const;
 
+  /** \brief After run(): how many points lie in a voxel, by the row of its centroid. */
+  std::uint32_t
+  countIn(std::size_t row) const
+  {
+    return table_.voxels()[order_[row].index].count;
+  }
+
 private:
   /** \brief Of the last run. */
   std::optional<CellNumbering<VoxelFloor>> numbering_;
