@@ -26,6 +26,22 @@ withoutPlus(std::string_view word)
   return word;
 }
 
+/** \brief What Microsoft's C library writes where a number is not finite: "1.#INF",
+ * "-1.#IND", "1.#QNAN00". */
+bool
+parseMicrosoft(std::string_view word, double& value)
+{
+  const bool negative = word.substr(0, 1) == "-";
+  word.remove_prefix(negative ? 1 : 0);
+  if (word.substr(0, 3) != "1.#")
+    return false;
+  using Limits = std::numeric_limits<double>;
+  value = word.substr(3, 3) == "INF" ? Limits::infinity() : Limits::quiet_NaN();
+  if (negative)
+    value = -value;
+  return true;
+}
+
 template <typename Integer>
 bool
 storeInteger(std::string_view word, std::uint8_t* to)
@@ -117,7 +133,7 @@ parseDouble(std::string_view word, double& value)
   const auto [end, error] =
       std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size())
-    return false;
+    return parseMicrosoft(word, value);
   if (error == std::errc::result_out_of_range) {
     // from_chars does not say on which side: a negative exponent means too small.
     const std::size_t exponent = word.find_first_of("eE");

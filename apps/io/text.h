@@ -49,7 +49,8 @@ takeWord(std::string_view& line, bool commas_too = false);
 std::vector<std::string_view>
 splitWords(std::string_view line, bool commas_too = false);
 
-/** \brief The whole of a word as a number; "nan" and "inf" are numbers. */
+/** \brief The whole of a word as a number. Those that are not finite count, as C and
+ * Microsoft's C write them: "nan", "-nan(ind)", "Inf", "-1.#IND", "1.#INF". */
 bool
 parseDouble(std::string_view word, double& value);
 
