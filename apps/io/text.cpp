@@ -3,6 +3,7 @@
 
 #include "text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -124,6 +125,31 @@ splitWords(std::string_view line, bool commas_too)
   }
 }
 
+std::string
+quoted(std::string_view word)
+{
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text = "'";
+  for (const char c : word.substr(0, 40)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= ' ' && byte < 127)
+      text += c;
+    else
+      text += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+  }
+  return text + "'";
+}
+
+bool
+beginsWith(std::string_view word, std::string_view beginning)
+{
+  return word.size() >= beginning.size() &&
+         std::equal(
+             beginning.begin(), beginning.end(), word.begin(), [](char a, char b) {
+               return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b);
+             });
+}
+
 bool
 parseDouble(std::string_view word, double& value)
 {
@@ -157,16 +183,38 @@ parseUnsigned(std::string_view word, std::size_t& value)
 }
 
 bool
-storeWord(std::string_view word, std::uint8_t* point, const Field& field, std::size_t k)
+parseLeadingDouble(std::string_view word, double& value)
+{
+  word = withoutPlus(word);
+  return std::from_chars(word.data(), word.data() + word.size(), value).ec ==
+         std::errc();
+}
+
+bool
+storeExactly(std::string_view word,
+             std::uint8_t* point,
+             const Field& field,
+             std::size_t k)
 {
   std::uint8_t* to = point + field.offset + k * sizeOf(field.type);
-  if (!isFloat(field.type) && storeAsInteger(word, to, field.type))
+  if (storeAsInteger(word, to, field.type))
     return true;
   double value = 0;
   if (!parseDouble(word, value))
     return false;
   storeValue(point, field, value, k);
-  return isFloat(field.type) || loadValue(point, field, k) == std::nearbyint(value);
+  // As doubles, the largest 64-bit integers are those that do not fit any more.
+  return isFloat(field.type) ||
+         (std::abs(value) < 0x1p63 && loadValue(point, field, k) == value);
+}
+
+bool
+storeWord(std::string_view word, std::uint8_t* point, const Field& field, std::size_t k)
+{
+  double value = 0;
+  return storeExactly(word, point, field, k) ||
+         (parseDouble(word, value) &&
+          loadValue(point, field, k) == std::nearbyint(value));
 }
 
 } // namespace pcl_flashreg::io
