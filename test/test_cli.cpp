@@ -204,6 +204,20 @@ TEST_F(CliTest, keepsAllFields)
   EXPECT_LT((normalOf(aligned) - pose.rotation * normalOf(source)).norm(), 1e-4);
 }
 
+TEST_F(CliTest, saysWhatItHadToGuess)
+{
+  writeRoom("source.pcd", "target.pcd");
+  std::string bytes = io::readFile(path("source.pcd"));
+  bytes.replace(bytes.find("x y z"), 5, "X Y Z");
+  io::writeFile(path("source.pcd"), bytes);
+  const ProgramRun run = align("source.pcd target.pcd");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err,
+            "pcl_flashreg_align: note: source.pcd: fields are taken for coordinates: "
+            "'X' 'Y' 'Z'\n");
+  EXPECT_EQ(align("source.pcd target.pcd --quiet").err, "");
+}
+
 TEST_F(CliTest, geoReferencedDoublesKeepTheirPrecision)
 {
   const Eigen::Vector3d utm(500000, 4000000, 300);

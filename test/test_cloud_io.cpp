@@ -5,6 +5,7 @@
 #include "io/cloud_io.h"
 #include "io/file.h"
 #include "io/pcl_cloud.h"
+#include "io/text.h"
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
@@ -133,6 +134,33 @@ TEST(KittiBin, readsAndRefuses)
   append(bytes, 0.0);
   append(bytes, 0.0f);
   EXPECT_TRUE(contains(complaintOf(parseKittiBin, bytes), "point 2"));
+}
+
+TEST(Text, numbersThatAreNotFinite)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto parsed = [](const std::string& word) {
+    double value = 0;
+    return parseDouble(word, value) ? value : 0;
+  };
+  for (const char* word : {"nan",
+                           "-nan",
+                           "+nan",
+                           "NaN",
+                           "nan(ind)",
+                           "-nan(ind)",
+                           "nan(snan)",
+                           "1.#QNAN",
+                           "-1.#IND",
+                           "1.#QNAN00",
+                           "1.#SNAN"})
+    EXPECT_TRUE(std::isnan(parsed(word))) << word;
+  for (const char* word : {"inf", "Inf", "+inf", "Infinity", "1.#INF", "1.#INF00"})
+    EXPECT_EQ(parsed(word), infinity) << word;
+  for (const char* word : {"-inf", "-Infinity", "-1.#INF"})
+    EXPECT_EQ(parsed(word), -infinity) << word;
+  for (const char* word : {"", "-", "nanometre", "2.#INF", "1#INF", "in", "1.5x"})
+    EXPECT_EQ(parsed(word), 0) << word;
 }
 
 TEST(Cloud, storesTheNearestValue)

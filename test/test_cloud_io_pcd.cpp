@@ -119,6 +119,87 @@ TEST(Pcd, readsBinaryWithPadding)
   EXPECT_EQ(valueOf(cloud, 1, "z"), 200);
 }
 
+TEST(Pcd, halfFloats)
+{
+  std::string bytes = pcdHeader("h", "2", "F", "7", "1", "binary");
+  for (const unsigned half : {0x3c00, 0xc100, 0x0001, 0x8000, 0x7bff, 0xfc00, 0x7e00})
+    append(bytes, static_cast<std::uint16_t>(half));
+  const Cloud cloud = parsePcd(bytes);
+  ASSERT_EQ(cloud.find("h")->type, ScalarType::Float32);
+  const double expected[] = {1, -2.5, std::ldexp(1.0, -24), 0, 65504, -HUGE_VAL};
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_EQ(valueOf(cloud, 0, "h", k), expected[k]);
+  EXPECT_TRUE(std::signbit(valueOf(cloud, 0, "h", 3)));
+  EXPECT_TRUE(std::isnan(valueOf(cloud, 0, "h", 6)));
+}
+
+TEST(Pcd, notesWhatItGuessesAndLeavesOut)
+{
+  using Notes = std::vector<std::string>;
+  const auto notesOf = [](const std::string& fields,
+                          const std::string& sizes,
+                          const std::string& types,
+                          const std::string& row,
+                          const std::string& data = "ascii") {
+    std::string counts = "1";
+    for (const char c : fields)
+      counts += c == ' ' ? " 1" : "";
+    return parsePcd(pcdHeader(fields, sizes, types, counts, "1", data) + row + "\n")
+        .notes;
+  };
+  EXPECT_EQ(notesOf("x y z _", "4 4 4 1", "F F F U", "1 2 3 oh"), Notes{});
+  EXPECT_EQ(notesOf("x y z a", "4 4 4 16", "F F F F", "1 2 3 4"),
+            Notes{"the field 'a' has the unknown TYPE 'F' with SIZE '16': it is left "
+                  "out"});
+  EXPECT_EQ(notesOf("x y z a", "4 4 4 1", "F F F U", "1 2 3 300"),
+            Notes{"the field 'a' is read as double: '300' does not fit its type"});
+  EXPECT_EQ(notesOf("x y z a", "4 4 4 1", "F F F U", "1 2 3 \x18"),
+            Notes{"the field 'a' is left out: '\\x18' is no number"});
+  EXPECT_EQ(notesOf("X y Z", "4 4 4", "F F F", "1 2 3"),
+            Notes{"fields are taken for coordinates: 'X' 'Z'"});
+  EXPECT_EQ(notesOf("x y z x", "4 4 4 4", "F F F F", "1 2 3 4"),
+            Notes{"there is more than one field 'x': another one is named 'x_2'"});
+  EXPECT_EQ(notesOf("x y z", "4 4 4", "F F F", "1 2 3", "text"),
+            Notes{"the DATA line says neither ascii, binary nor binary_compressed: it "
+                  "is taken for ascii"});
+  EXPECT_EQ(parsePcd("FIELDS x\nVIEWPOINT 1 2 3 4\nPOINTS 0\nDATA binary\n").notes,
+            Notes{"VIEWPOINT is not seven numbers: the sensor is taken to stand at the "
+                  "first three"});
+}
+
+TEST(Pcd, notesOfPointsThatLackValues)
+{
+  const Cloud cloud = parsePcd(
+      pcdHeader(
+          "x y z a tag b", "4 4 4 4 1 4", "F F F F U F", "1 1 1 1 1 1", "3", "ascii") +
+      "1 2 3 4 \x18 5\n1 2 3 4   5\n1 2 3 4 \n 5\n");
+  EXPECT_EQ(cloud.notes,
+            (std::vector<std::string>{
+                "the field 'tag' is left out: '\\x18' is no number",
+                "the field 'b' is left out: line 13 has 5 of 6 values"}));
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(valueOf(cloud, i, "a"), 4);
+}
+
+TEST(Pcd, writesWhatItKept)
+{
+  const Cloud cloud = parsePcd(pcdHeader("X Y Z _ i i h a tag",
+                                         "4 4 4 1 1 2 2 1 1",
+                                         "f f f u u u f u u",
+                                         "1 1 1 2 1 1 3 1 1",
+                                         "1",
+                                         "ascii") +
+                               "1 2 3 0 0 5 6 0.5 0.25 nan -1 ?\n");
+  ASSERT_EQ(cloud.notes.size(), 4u);
+  const Cloud again = parsePcd(formatPcd(cloud));
+  EXPECT_EQ(again.notes.size(), 0u);
+  expectEqual(again, cloud);
+  EXPECT_EQ(valueOf(again, 0, "i_2"), 6);
+  EXPECT_EQ(valueOf(again, 0, "h", 1), 0.25);
+  EXPECT_EQ(valueOf(again, 0, "a"), -1);
+  EXPECT_EQ(again.find("tag"), nullptr);
+}
+
 TEST(BadPcd, saysWhatIsWrong)
 {
   const auto xyz = [](const std::string& n, const std::string& data) {
@@ -140,18 +221,27 @@ TEST(BadPcd, saysWhatIsWrong)
       {xyz("1", "binary_compressed") + "1234", "lacks its sizes"},
       {xyz("1", "binary_compressed") + "\x09" + std::string(7, '\0'), "cut off"},
       {xyz("1", "rot13"), "the DATA line"},
-      {xyz("-1", "ascii"), "expected one number after 'WIDTH'"},
-      {xyz("99999999999999999999999", "ascii"), "expected one number after 'WIDTH'"},
+      {xyz("-1", "ascii"), "expected a number after 'WIDTH'"},
+      {xyz("99999999999999999999999", "ascii"), "expected a number after 'WIDTH'"},
       {pcdHeader("x y", "4 4 4", "F F F", "1 1 1", "1", "ascii"), "same number"},
-      {pcdHeader("x x", "4 4", "F F", "1 1", "1", "ascii") + "1 2\n", "declared twice"},
       {pcdHeader("x", "3", "F", "1", "1", "ascii"), "unknown TYPE"},
       {pcdHeader("x", "4", "Q", "1", "1", "ascii"), "unknown TYPE"},
-      {pcdHeader("x", "4", "F", "0", "1", "ascii"), "impossible COUNT"},
+      {pcdHeader("x", "4", "F", "-1", "1", "ascii"), "impossible COUNT"},
+      {pcdHeader("x", "4", "F", "some", "1", "ascii"), "impossible COUNT"},
+      {pcdHeader("x", "4", "F", "0", "1", "ascii"), "declares no values"},
+      {pcdHeader("a", "?", "F", "1", "1", "binary"), "'a' has no SIZE"},
       {pcdHeader("x", "4", "F", huge, "1", "binary"), "impossible COUNT"},
       {"FIELDS x\nWIDTH 4294967296\nHEIGHT 4294967297\nDATA binary\n",
        "impossibly large"},
       {"FIELDS x\nWIDTH 2\nHEIGHT 2\nPOINTS 5\nDATA binary\n", "POINTS is 5"},
-      {"FIELDS x\nVIEWPOINT 1 2\nDATA binary\n", "seven numbers"}};
+      {"FIELDS x\nHEIGHT 2\nDATA binary\n", "neither WIDTH nor POINTS"},
+      {pcdHeader("x y z i", "4 4 4 1", "F F F U", "1 1 1 1", "2", "ascii") +
+           "1.5 2.5 3.5 4\n1 2 3\n",
+       "line 13 has 3 of 4 values"},
+      {pcdHeader("i x y z", "1 4 4 4", "U F F F", "1 1 1 1", "1", "ascii") + " 1 2 3\n",
+       "line 12: expected 4 values, found 3"},
+      {xyz("1", "ascii") + "1 2 \x1b[1m\n",
+       "'\\x1b[1m' is no value for the field 'z'"}};
   for (const auto& [bytes, complaint] : table)
     EXPECT_TRUE(contains(complaintOf(parsePcd, bytes), complaint))
         << complaint << "\n  but: " << complaintOf(parsePcd, bytes);

@@ -13,13 +13,22 @@ namespace {
 
 using io::InputError;
 
+io::Cloud
+readCloud(const std::string& path, const Progress& progress)
+{
+  io::Cloud cloud = io::readCloud(path);
+  for (const std::string& note : cloud.notes)
+    progress.note(path + ": " + note);
+  return cloud;
+}
+
 InputCloud
 readInputCloud(const std::string& path, const Progress& progress)
 {
   progress.say("reading " + path);
   InputCloud input;
   input.path = path;
-  input.cloud = io::readCloud(path);
+  input.cloud = readCloud(path, progress);
   try {
     input.xyz = io::coordinates(input.cloud);
   }
@@ -96,9 +105,9 @@ descriptorField(const io::Cloud& cloud)
 }
 
 InputFeatures
-readFeatures(const std::string& path, const InputCloud& input)
+readFeatures(const std::string& path, const InputCloud& input, const Progress& progress)
 {
-  const io::Cloud cloud = io::readCloud(path);
+  const io::Cloud cloud = readCloud(path, progress);
   const io::Field* field = descriptorField(cloud);
   if (field == nullptr)
     throw InputError(path +
@@ -136,8 +145,10 @@ readInputs(const Options& options, const Progress& progress)
   checkPoints(*inputs.source);
   checkPoints(*inputs.target);
   if (!options.features.empty()) {
-    inputs.source_features = readFeatures(options.features[0], *inputs.source);
-    inputs.target_features = readFeatures(options.features[1], *inputs.target);
+    inputs.source_features =
+        readFeatures(options.features[0], *inputs.source, progress);
+    inputs.target_features =
+        readFeatures(options.features[1], *inputs.target, progress);
     if (inputs.source_features->dimension != inputs.target_features->dimension)
       throw InputError(options.features[1] +
                        ": its descriptors have another length than "

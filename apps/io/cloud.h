@@ -65,6 +65,9 @@ struct Cloud {
   std::vector<std::uint8_t> data;
   /** \brief PCD's VIEWPOINT: tx ty tz qw qx qy qz. */
   std::array<double, 7> viewpoint = {0, 0, 0, 1, 0, 0, 0};
+  /** \brief What the reader had to guess or to leave out, one line each: a program puts
+   * the path in front and prints them. */
+  std::vector<std::string> notes;
 
   std::size_t
   size() const

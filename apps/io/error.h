@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -14,5 +15,12 @@ class InputError : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
+
+/** \brief The error that a line of a text is, from 1. */
+inline InputError
+errorAtLine(std::size_t line, const std::string& message)
+{
+  return InputError("line " + std::to_string(line) + ": " + message);
+}
 
 } // namespace pcl_flashreg::io

@@ -4,252 +4,93 @@
 #include "error.h"
 #include "lzf.h"
 #include "pcd.h"
+#include "pcd_header.h"
 #include "text.h"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 
 namespace pcl_flashreg::io {
 namespace {
 
-using Words = std::vector<std::string_view>;
-
-/** \brief The header's lines as they are written, before they are checked. */
-struct Header {
-  Words names, sizes, types, counts;
-  std::optional<std::size_t> width, height, points;
-  std::array<double, 7> viewpoint = {0, 0, 0, 1, 0, 0, 0};
-  std::string_view data;
-  std::size_t body = 0;
-  std::size_t body_line = 0;
-};
-
-std::string
-quoted(std::string_view text)
-{
-  return "'" + std::string(text.substr(0, 40)) + "'";
-}
-
-[[noreturn]] void
-failAt(std::size_t line, const std::string& message)
-{
-  throw InputError("line " + std::to_string(line) + ": " + message);
-}
-
+/** \brief Bytes of a point in the body. */
 std::size_t
-headerNumber(const Words& words, std::size_t line)
-{
-  std::size_t value = 0;
-  if (words.size() != 2 || !parseUnsigned(words[1], value))
-    failAt(line, "expected one number after " + quoted(words[0]));
-  return value;
-}
-
-void
-parseViewpoint(const Words& words, std::size_t line, std::array<double, 7>& viewpoint)
-{
-  if (words.size() != 8)
-    failAt(line, "expected seven numbers after VIEWPOINT");
-  for (std::size_t i = 0; i < 7; ++i)
-    if (!parseDouble(words[i + 1], viewpoint[i]))
-      failAt(line, quoted(words[i + 1]) + " is not a number");
-}
-
-Header
-parseHeader(std::string_view bytes)
-{
-  Header header;
-  LineReader lines(bytes);
-  for (std::string_view line; lines.next(line);) {
-    const Words words = splitWords(line);
-    if (words.empty() || words[0][0] == '#')
-      continue;
-    const std::string_view key = words[0];
-    const Words rest(words.begin() + 1, words.end());
-    if (key == "FIELDS" || key == "COLUMNS")
-      header.names = rest;
-    else if (key == "SIZE")
-      header.sizes = rest;
-    else if (key == "TYPE")
-      header.types = rest;
-    else if (key == "COUNT")
-      header.counts = rest;
-    else if (key == "WIDTH")
-      header.width = headerNumber(words, lines.lineNumber());
-    else if (key == "HEIGHT")
-      header.height = headerNumber(words, lines.lineNumber());
-    else if (key == "POINTS")
-      header.points = headerNumber(words, lines.lineNumber());
-    else if (key == "VIEWPOINT")
-      parseViewpoint(words, lines.lineNumber(), header.viewpoint);
-    else if (key == "DATA") {
-      header.data = words.size() == 2 ? words[1] : std::string_view();
-      header.body = lines.position();
-      header.body_line = lines.lineNumber();
-      return header;
-    }
-    else if (key != "VERSION")
-      failAt(lines.lineNumber(), "not a PCD header: unknown keyword " + quoted(key));
-  }
-  throw InputError("the header has no DATA line: not a PCD file, or cut off");
-}
-
-ScalarType
-scalarType(std::string_view type, std::string_view size)
-{
-  const char kind = type.size() == 1 ? type[0] : ' ';
-  if (kind == 'F' && size == "4")
-    return ScalarType::Float32;
-  if (kind == 'F' && size == "8")
-    return ScalarType::Float64;
-  if (kind == 'I' || kind == 'U') {
-    const bool is_signed = kind == 'I';
-    if (size == "1")
-      return is_signed ? ScalarType::Int8 : ScalarType::Uint8;
-    if (size == "2")
-      return is_signed ? ScalarType::Int16 : ScalarType::Uint16;
-    if (size == "4")
-      return is_signed ? ScalarType::Int32 : ScalarType::Uint32;
-    if (size == "8")
-      return is_signed ? ScalarType::Int64 : ScalarType::Uint64;
-  }
-  throw InputError("a field has the unknown TYPE " + quoted(type) + " with SIZE " +
-                   quoted(size));
-}
-
-/** \brief A field and whether it is kept. */
-struct FileField : Field {
-  bool padding = false;
-};
-
-std::vector<FileField>
-fieldsOf(const Header& header, std::size_t body_size)
-{
-  const std::size_t n = header.names.size();
-  if (n == 0)
-    throw InputError("the header has no FIELDS line");
-  const auto matches = [&](const Words& words) {
-    return words.empty() || words.size() == n;
-  };
-  if (!matches(header.sizes) || !matches(header.types) || !matches(header.counts))
-    throw InputError(
-        "FIELDS, SIZE, TYPE and COUNT do not have the same number of entries");
-  std::vector<FileField> fields(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    FileField& field = fields[i];
-    field.name = std::string(header.names[i]);
-    field.padding = field.name == "_";
-    field.type = scalarType(header.types.empty() ? "F" : header.types[i],
-                            header.sizes.empty() ? "4" : header.sizes[i]);
-    // One value takes a byte of the file at least (in ascii, in binary, and in LZF one
-    // byte in 88), which bounds what a count can be.
-    if (!header.counts.empty() && (!parseUnsigned(header.counts[i], field.count) ||
-                                   field.count == 0 || field.count / 100 > body_size))
-      throw InputError("the field " + quoted(field.name) +
-                       " has the impossible COUNT " + quoted(header.counts[i]));
-  }
-  return fields;
-}
-
-/** \brief Gives the cloud its fields and its size; throws where the points cannot be in
- * a body that could hold so many bytes. */
-Cloud
-layoutOf(const Header& header,
-         const std::vector<FileField>& fields,
-         std::size_t row_size,
-         std::size_t capacity)
-{
-  Cloud cloud;
-  cloud.viewpoint = header.viewpoint;
-  for (const FileField& field : fields)
-    if (!field.padding)
-      cloud.addField(field.name, field.type, field.count);
-  cloud.width = header.width.value_or(header.points.value_or(0));
-  cloud.height = header.height.value_or(1);
-  const std::size_t limit = capacity / row_size;
-  if (cloud.height != 0 &&
-      cloud.width > std::numeric_limits<std::size_t>::max() / cloud.height)
-    throw InputError("WIDTH x HEIGHT is impossibly large");
-  if (header.points && *header.points != cloud.size())
-    throw InputError("POINTS is " + std::to_string(*header.points) +
-                     ", but WIDTH x HEIGHT is " + std::to_string(cloud.size()));
-  if (cloud.size() > limit)
-    throw InputError("is cut off: the header declares " + std::to_string(cloud.size()) +
-                     " points, the body holds " + std::to_string(limit) + " at most");
-  cloud.data.resize(cloud.size() * cloud.point_size);
-  return cloud;
-}
-
-std::size_t
-binaryRowSize(const std::vector<FileField>& fields)
+rowSize(const PcdHeader& header)
 {
   std::size_t size = 0;
-  for (const FileField& field : fields)
+  for (const PcdField& field : header.fields) {
+    if (field.value_size == 0)
+      throw InputError("the field " + quoted(field.name) + " has no SIZE");
     size += field.byteSize();
+  }
   return size;
 }
 
-Cloud
-parseAscii(const Header& header,
-           const std::vector<FileField>& fields,
-           std::string_view body)
+float
+fromHalf(std::uint16_t half)
 {
-  std::size_t values = 0;
-  for (const FileField& field : fields)
-    values += field.count;
-  // A value is one character and a blank or line end; the last one may lack that.
-  Cloud cloud = layoutOf(header, fields, 2 * values, body.size() + 1);
-  LineReader lines(body);
-  std::size_t i = 0;
-  for (std::string_view line; i < cloud.size() && lines.next(line);) {
-    const Words words = splitWords(line);
-    if (words.empty() || words[0][0] == '#')
-      continue;
-    const std::size_t number = header.body_line + lines.lineNumber();
-    if (words.size() != values)
-      failAt(number,
-             "expected " + std::to_string(values) + " values, found " +
-                 std::to_string(words.size()));
-    std::size_t word = 0;
-    std::size_t kept = 0;
-    for (const FileField& field : fields) {
-      if (field.padding) {
-        word += field.count;
-        continue;
-      }
-      const Field& to = cloud.fields[kept++];
-      for (std::size_t k = 0; k < to.count; ++k, ++word)
-        if (!storeWord(words[word], cloud.point(i), to, k))
-          failAt(number,
-                 quoted(words[word]) + " is no value for the field " + quoted(to.name));
-    }
-    ++i;
+  const int exponent = half >> 10 & 31;
+  const int mantissa = half & 1023;
+  using Limits = std::numeric_limits<float>;
+  float value = std::ldexp(static_cast<float>(mantissa), -24);
+  if (exponent == 31)
+    value = mantissa == 0 ? Limits::infinity() : Limits::quiet_NaN();
+  else if (exponent != 0)
+    value = std::ldexp(static_cast<float>(1024 + mantissa), exponent - 25);
+  return half >> 15 == 0 ? value : -value;
+}
+
+/** \brief The values of a field of one point, from the file to the cloud. */
+void
+copyValues(const PcdField& field, const char* from, std::uint8_t* to)
+{
+  if (field.value_size == sizeOf(*field.kept_as)) {
+    std::memcpy(to, from, field.byteSize());
+    return;
   }
-  if (i < cloud.size())
-    throw InputError("is cut off: the header declares " + std::to_string(cloud.size()) +
-                     " points, the body holds " + std::to_string(i));
-  return cloud;
+  for (std::size_t k = 0; k < field.count; ++k) {
+    std::uint16_t half;
+    std::memcpy(&half, from + k * sizeof(half), sizeof(half));
+    const float value = fromHalf(half);
+    std::memcpy(to + k * sizeof(value), &value, sizeof(value));
+  }
+}
+
+/** \brief Where the values of a field lie in the bytes of a body: those of the first
+ * point, and how far those of the next one are. */
+struct Place {
+  const char* first;
+  std::size_t stride;
+};
+
+/** \brief Fills a cloud from bytes in which place(field, offset) says where a field lies,
+ * given the bytes of a point before it. */
+template <typename PlaceOf>
+void
+fill(Cloud& cloud, const PcdHeader& header, PlaceOf&& placeOf)
+{
+  std::size_t offset = 0;
+  std::size_t kept = 0;
+  for (const PcdField& field : header.fields) {
+    if (field.kept_as) {
+      const Place place = placeOf(field, offset);
+      const std::size_t to = cloud.fields[kept++].offset;
+      for (std::size_t i = 0; i < cloud.size(); ++i)
+        copyValues(field, place.first + i * place.stride, cloud.point(i) + to);
+    }
+    offset += field.byteSize();
+  }
 }
 
 Cloud
-parseBinary(const Header& header,
-            const std::vector<FileField>& fields,
-            std::string_view body)
+parseBinary(const PcdHeader& header)
 {
-  const std::size_t row_size = binaryRowSize(fields);
-  Cloud cloud = layoutOf(header, fields, row_size, body.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const char* from = body.data() + i * row_size;
-    std::uint8_t* to = cloud.point(i);
-    for (const FileField& field : fields) {
-      if (!field.padding) {
-        std::memcpy(to, from, field.byteSize());
-        to += field.byteSize();
-      }
-      from += field.byteSize();
-    }
-  }
+  const std::size_t row_size = rowSize(header);
+  Cloud cloud = makePcdCloud(header, row_size, header.body.size());
+  fill(cloud, header, [&](const PcdField&, std::size_t offset) {
+    return Place{header.body.data() + offset, row_size};
+  });
   return cloud;
 }
 
@@ -264,10 +105,9 @@ sizeAt(std::string_view body, std::size_t offset)
 /** \brief The compressed body has the fields one after the other, each for all points.
  */
 Cloud
-parseCompressed(const Header& header,
-                const std::vector<FileField>& fields,
-                std::string_view body)
+parseCompressed(const PcdHeader& header)
 {
+  const std::string_view body = header.body;
   if (body.size() < 8)
     throw InputError("is cut off: the compressed body lacks its sizes");
   const std::size_t compressed = sizeAt(body, 0);
@@ -277,19 +117,27 @@ parseCompressed(const Header& header,
                      " bytes and has " + std::to_string(body.size() - 8));
   const std::vector<std::uint8_t> columns =
       decompressLzf(body.substr(8, compressed), uncompressed);
-  Cloud cloud = layoutOf(header, fields, binaryRowSize(fields), columns.size());
-  const std::uint8_t* from = columns.data();
-  std::size_t offset = 0;
-  for (const FileField& field : fields) {
-    const std::size_t size = field.byteSize();
-    if (!field.padding) {
-      for (std::size_t i = 0; i < cloud.size(); ++i)
-        std::memcpy(cloud.point(i) + offset, from + i * size, size);
-      offset += size;
-    }
-    from += cloud.size() * size;
-  }
+  Cloud cloud = makePcdCloud(header, rowSize(header), columns.size());
+  const char* const first = reinterpret_cast<const char*>(columns.data());
+  fill(cloud, header, [&](const PcdField& field, std::size_t offset) {
+    return Place{first + offset * cloud.size(), field.byteSize()};
+  });
   return cloud;
+}
+
+/** \brief PCL's older versions take any other word for ascii. */
+Cloud
+parseUnknown(PcdHeader header)
+{
+  const std::string complaint =
+      "the DATA line says neither ascii, binary nor binary_compressed";
+  header.notes.push_back(complaint + ": it is taken for ascii");
+  try {
+    return readPcdAscii(header);
+  }
+  catch (const InputError& error) {
+    throw InputError(complaint + "; as ascii: " + error.what());
+  }
 }
 
 } // namespace
@@ -297,16 +145,17 @@ parseCompressed(const Header& header,
 Cloud
 parsePcd(std::string_view bytes)
 {
-  const Header header = parseHeader(bytes);
-  const std::string_view body = bytes.substr(header.body);
-  const std::vector<FileField> fields = fieldsOf(header, body.size());
-  if (header.data == "ascii")
-    return parseAscii(header, fields, body);
-  if (header.data == "binary")
-    return parseBinary(header, fields, body);
-  if (header.data == "binary_compressed")
-    return parseCompressed(header, fields, body);
-  throw InputError("the DATA line says neither ascii, binary nor binary_compressed");
+  PcdHeader header = parsePcdHeader(bytes);
+  switch (header.encoding) {
+  case PcdEncoding::Ascii:
+    return readPcdAscii(std::move(header));
+  case PcdEncoding::Binary:
+    return parseBinary(header);
+  case PcdEncoding::Compressed:
+    return parseCompressed(header);
+  default:
+    return parseUnknown(std::move(header));
+  }
 }
 
 } // namespace pcl_flashreg::io

@@ -3,6 +3,7 @@
 
 #include "text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -24,6 +25,22 @@ withoutPlus(std::string_view word)
   if (word.size() > 1 && word[0] == '+' && word[1] != '-')
     word.remove_prefix(1);
   return word;
+}
+
+/** \brief What Microsoft's C library writes where a number is not finite: "1.#INF",
+ * "-1.#IND", "1.#QNAN00". */
+bool
+parseMicrosoft(std::string_view word, double& value)
+{
+  const bool negative = word.substr(0, 1) == "-";
+  word.remove_prefix(negative ? 1 : 0);
+  if (word.substr(0, 3) != "1.#")
+    return false;
+  using Limits = std::numeric_limits<double>;
+  value = word.substr(3, 3) == "INF" ? Limits::infinity() : Limits::quiet_NaN();
+  if (negative)
+    value = -value;
+  return true;
 }
 
 template <typename Integer>
@@ -108,6 +125,31 @@ splitWords(std::string_view line, bool commas_too)
   }
 }
 
+std::string
+quoted(std::string_view word)
+{
+  constexpr const char* digits = "0123456789abcdef";
+  std::string text = "'";
+  for (const char c : word.substr(0, 40)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= ' ' && byte < 127)
+      text += c;
+    else
+      text += {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+  }
+  return text + "'";
+}
+
+bool
+beginsWith(std::string_view word, std::string_view beginning)
+{
+  return word.size() >= beginning.size() &&
+         std::equal(
+             beginning.begin(), beginning.end(), word.begin(), [](char a, char b) {
+               return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b);
+             });
+}
+
 bool
 parseDouble(std::string_view word, double& value)
 {
@@ -117,7 +159,7 @@ parseDouble(std::string_view word, double& value)
   const auto [end, error] =
       std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size())
-    return false;
+    return parseMicrosoft(word, value);
   if (error == std::errc::result_out_of_range) {
     // from_chars does not say on which side: a negative exponent means too small.
     const std::size_t exponent = word.find_first_of("eE");
@@ -141,16 +183,38 @@ parseUnsigned(std::string_view word, std::size_t& value)
 }
 
 bool
-storeWord(std::string_view word, std::uint8_t* point, const Field& field, std::size_t k)
+parseLeadingDouble(std::string_view word, double& value)
+{
+  word = withoutPlus(word);
+  return std::from_chars(word.data(), word.data() + word.size(), value).ec ==
+         std::errc();
+}
+
+bool
+storeExactly(std::string_view word,
+             std::uint8_t* point,
+             const Field& field,
+             std::size_t k)
 {
   std::uint8_t* to = point + field.offset + k * sizeOf(field.type);
-  if (!isFloat(field.type) && storeAsInteger(word, to, field.type))
+  if (storeAsInteger(word, to, field.type))
     return true;
   double value = 0;
   if (!parseDouble(word, value))
     return false;
   storeValue(point, field, value, k);
-  return isFloat(field.type) || loadValue(point, field, k) == std::nearbyint(value);
+  // As doubles, the largest 64-bit integers are those that do not fit any more.
+  return isFloat(field.type) ||
+         (std::abs(value) < 0x1p63 && loadValue(point, field, k) == value);
+}
+
+bool
+storeWord(std::string_view word, std::uint8_t* point, const Field& field, std::size_t k)
+{
+  double value = 0;
+  return storeExactly(word, point, field, k) ||
+         (parseDouble(word, value) &&
+          loadValue(point, field, k) == std::nearbyint(value));
 }
 
 } // namespace pcl_flashreg::io

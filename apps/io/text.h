@@ -6,6 +6,7 @@
 #include "cloud.h"
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -49,7 +50,18 @@ takeWord(std::string_view& line, bool commas_too = false);
 std::vector<std::string_view>
 splitWords(std::string_view line, bool commas_too = false);
 
-/** \brief The whole of a word as a number; "nan" and "inf" are numbers. */
+/** \brief A word between quotes as a message shows it: its beginning, in ASCII. */
+std::string
+quoted(std::string_view word);
+
+/** \brief Whether a word begins so, in letters of either case.
+ * \param[in] beginning in lower case
+ */
+bool
+beginsWith(std::string_view word, std::string_view beginning);
+
+/** \brief The whole of a word as a number. Those that are not finite count, as C and
+ * Microsoft's C write them: "nan", "-nan(ind)", "Inf", "-1.#IND", "1.#INF". */
 bool
 parseDouble(std::string_view word, double& value);
 
@@ -57,9 +69,21 @@ parseDouble(std::string_view word, double& value);
 bool
 parseUnsigned(std::string_view word, std::size_t& value);
 
+/** \brief The number that a word begins with, whatever follows it: of "640," it is 640,
+ * of "0.5f" 0.5. */
+bool
+parseLeadingDouble(std::string_view word, double& value);
+
 /** \brief Writes the number that a word is into value k of a field of a point; false if
- * the word is none, or does not fit the type of the field. 64-bit integers keep all
- * digits. */
+ * the word is none, or does not fit the type of the field: out of its range, or no
+ * integer. 64-bit integers keep all digits. */
+bool
+storeExactly(std::string_view word,
+             std::uint8_t* point,
+             const Field& field,
+             std::size_t k);
+
+/** \brief The same, but what is no integer is rounded to one. */
 bool
 storeWord(std::string_view word,
           std::uint8_t* point,

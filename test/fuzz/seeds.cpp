@@ -6,6 +6,7 @@
 #include "cloud_io_support.h"
 #include "io/pcd.h"
 #include "io/ply.h"
+#include "pcd_forms.h"
 #include "support/made_correspondences.h"
 
 #include <pcl_flashreg/pair_registration.h>
@@ -24,7 +25,27 @@ pcdSeeds()
   std::string ascii = fields + "ascii\n";
   for (int i = 0; i < 3; ++i)
     ascii += "1.5 -2e-3 nan 0 0 0 7 -8\n";
-  return {ascii, binary, io::formatPcd(io::richCloud(40))};
+  // What is guessed, kept as something else, or left out.
+  io::forms::Form form;
+  form.setColumns({{"X"},
+                   {"y", 'F', 2},
+                   {"z", 'F', 8},
+                   {"gone", 'I', 4, 0},
+                   {"i", 'U', 1},
+                   {"i", 'B', 1},
+                   {"q", 'Q', 3, 2},
+                   {"n", 'I', 2}});
+  form.set("WIDTH", "0");
+  form.set("VIEWPOINT", "1, 2, 3");
+  form.data = "* # body";
+  form.odd_column = 4;
+  form.odd_words = {"\x18", " ", "\n", "7", ",", "300"};
+  return {ascii,
+          binary,
+          io::formatPcd(io::richCloud(40)),
+          form.bytes(io::forms::Encoding::Ascii),
+          form.bytes(io::forms::Encoding::Binary),
+          form.bytes(io::forms::Encoding::Compressed)};
 }
 
 std::vector<std::string>
