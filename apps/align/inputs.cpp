@@ -6,7 +6,10 @@
 #include "../io/cloud_io.h"
 #include "../io/error.h"
 #include "../io/file.h"
+#include "../io/scan_input.h"
 #include "../io/transform_io.h"
+
+#include <pcl_flashreg/pair_registration.h>
 
 namespace pcl_flashreg::align {
 namespace {
@@ -127,6 +130,13 @@ readFeatures(const std::string& path, const InputCloud& input, const Progress& p
 }
 
 } // namespace
+
+double
+resolutionOf(const InputCloud& cloud)
+{
+  const ScanInput<double> input = io::scanInput(cloud.cloud, cloud.xyz);
+  return PairRegistration(BackendKind::Cpu, 1).chooseResolution(input, input);
+}
 
 Inputs
 readInputs(const Options& options, const Progress& progress)

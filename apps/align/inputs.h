@@ -22,6 +22,11 @@ struct InputCloud {
   Eigen::Matrix3Xd xyz;
 };
 
+/** \brief What the cloud by itself would be seen at.
+ * \throws std::invalid_argument if it has fewer than two distinct finite points */
+double
+resolutionOf(const InputCloud& cloud);
+
 /** \brief Descriptors, one a point of a cloud. */
 struct InputFeatures {
   std::size_t dimension = 0;

@@ -6,10 +6,11 @@
 #include "../io/error.h"
 #include "../io/pcl_cloud.h"
 #include "../io/scan_input.h"
+#include "doubts.h"
 #include "modules.h"
+#include "numbers.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
-#include <pcl_flashreg/resolution.h>
 
 #include <algorithm>
 #include <sstream>
@@ -18,14 +19,6 @@ namespace pcl_flashreg::align {
 namespace {
 
 using io::InputError;
-
-std::string
-shortNumber(double value)
-{
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 /** \brief A cloud as a registration takes it. */
 ScanInput<double>
@@ -210,19 +203,32 @@ private:
   [[noreturn]] void
   failLeaf(const InputCloud& cloud, const std::string& problem) const
   {
-    const double better = estimateResolution(*io::toPclCloud(cloud.xyz).points);
+    const double better = resolutionOf(cloud);
     throw UsageError("--leaf " + shortNumber(*options_.leaf) + ": " + problem +
                      "; about " + shortNumber(better) + " would suit " + cloud.path);
+  }
+
+  static bool
+  hasResolution(const InputCloud& cloud)
+  {
+    try {
+      return resolutionOf(cloud) > 0;
+    }
+    catch (const std::invalid_argument&) {
+      return false;
+    }
   }
 
   /** \brief What the core can't work with, in terms of what was given here. */
   [[noreturn]] void
   complain(const std::string& problem) const
   {
-    const bool of_source = step_ == PairStep::SourceScan;
-    const InputCloud& cloud = of_source ? *inputs_.source : *inputs_.target;
-    if (step_ != PairStep::SourceScan && step_ != PairStep::TargetScan)
+    if (step_ == PairStep::Matching || step_ == PairStep::Estimation)
       throw InputError(problem);
+    const bool of_source =
+        step_ == PairStep::SourceScan ||
+        (step_ == PairStep::Resolution && !hasResolution(*inputs_.source));
+    const InputCloud& cloud = of_source ? *inputs_.source : *inputs_.target;
     if (options_.leaf)
       failLeaf(cloud, problem);
     throw InputError(cloud.path + ": " + problem);
@@ -235,19 +241,6 @@ private:
   PairStep step_ = PairStep::Resolution;
 };
 
-void
-askForTheUnit(const PairResult& result, const Progress& progress)
-{
-  constexpr double FAR_APART = 5;
-  if (!result.source_estimate || !result.target_estimate)
-    return;
-  const double source = *result.source_estimate, target = *result.target_estimate;
-  if (std::max(source, target) > FAR_APART * std::min(source, target))
-    progress.note("the source by itself would be seen at a resolution of " +
-                  shortNumber(source) + ", the target at " + shortNumber(target) +
-                  ": are both in the same unit?");
-}
-
 } // namespace
 
 Outcome
@@ -258,8 +251,7 @@ alignInputs(const Options& options, const Inputs& inputs, const Progress& progre
   Outcome outcome;
   outcome.setup_ms = setup.milliseconds();
   outcome.pair = Run(options, inputs, progress).align(registration);
-  if (!inputs.source_features)
-    askForTheUnit(outcome.pair, progress);
+  noteDoubts(options, inputs, outcome.pair, progress);
   return outcome;
 }
 

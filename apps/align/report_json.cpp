@@ -113,6 +113,22 @@ freeMotionsOf(const Result& result)
 }
 
 Json
+seenFrom(const Scan& scan)
+{
+  const char* const sources[] = {"unknown", "stated", "points"};
+  Json json = {{"known_by", sources[static_cast<int>(scan.viewpointSource())]}};
+  if (scan.viewpoint())
+    json["place"] = rowsOf(scan.viewpoint()->transpose())[0];
+  return json;
+}
+
+Json
+leftOut(const LeftOutPoints& points)
+{
+  return {{"repeated", points.repeated}, {"stray", points.stray}};
+}
+
+Json
 parametersOf(const Parameters& parameters)
 {
   return {{"length_tolerance", parameters.length_tolerance},
@@ -145,6 +161,10 @@ formatJson(const Options& options, const Outcome& outcome)
   json["evidence"] = evidenceOf(result.evidence);
   json["resolution"] =
       outcome.pair.resolution != 0 ? Json(outcome.pair.resolution) : Json();
+  json["seen_from"] = {{"source", seenFrom(outcome.pair.source)},
+                       {"target", seenFrom(outcome.pair.target)}};
+  json["points_left_out"] = {{"source", leftOut(outcome.pair.source_left_out)},
+                             {"target", leftOut(outcome.pair.target_left_out)}};
   json["parameters"] = parametersOf(outcome.pair.parameters);
   json["backend"] = result.backend;
   json["second_order"] =

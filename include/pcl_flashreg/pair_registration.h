@@ -102,6 +102,18 @@ struct Correspondences {
   }
 };
 
+/** \brief Points of a cloud that can't be part of a surface, and are not used: many in one
+ * place, as beams without a return are stored, and those beyond all others by orders of
+ * magnitude. Not those whose coordinates are not finite. */
+struct LeftOutPoints {
+  /** \brief In at most four places that hold hundreds each: (0, 0, 0), usually. */
+  std::size_t repeated = 0;
+  /** \brief Where most of these lie, in the caller's frame. */
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  /** \brief A thousand times as far from the middle as nine in ten of the others. */
+  std::size_t stray = 0;
+};
+
 /** \brief What PairRegistration::align() returns. */
 struct PairResult {
   /** \brief The pose, the verdict and what they are made from; its rows are those of
@@ -120,6 +132,8 @@ struct PairResult {
   /** \brief What each cloud by itself would have been seen at, where that was estimated:
    * far apart if they are not in the same unit. */
   std::optional<double> source_estimate, target_estimate;
+  /** \brief What was not used of clouds. */
+  LeftOutPoints source_left_out, target_left_out;
   Parameters parameters;
   PairTimings timings;
 };

@@ -224,14 +224,15 @@ checkOnClouds(const SurfacePair& clouds,
   if (clouds.seeing())
     screen(clouds, hypotheses, half_side, list, pool);
 
-  CloudCheck check(clouds, problem, inlier_distance, half_side, pool);
-  check.study(list);
-  if (!clouds.seeing())
-    return check.judge(false);
-  CloudFindings seeing = check.judge(true);
-  if (confidenceOfClouds(seeing.evidence) > NOT_TO_OVERRULE)
+  const auto judge = [&](const SurfacePair& with_or_without) {
+    CloudCheck check(with_or_without, problem, inlier_distance, half_side, pool);
+    check.study(list);
+    return check.judge(with_or_without.seeing());
+  };
+  CloudFindings seeing = judge(clouds);
+  if (!clouds.seeing() || confidenceOfClouds(seeing.evidence) > NOT_TO_OVERRULE)
     return seeing;
-  CloudFindings blind = check.judge(false);
+  CloudFindings blind = judge({clouds.source, clouds.target, clouds.spacing, false});
   blind.evidence.overruled_viewpoints = true;
   // What is more certain without the viewpoints says that they are wrong.
   const double enough =

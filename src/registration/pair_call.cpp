@@ -95,6 +95,8 @@ PairCall::makeScans(const PreparedInput& source,
                     ScanContent content)
 {
   const double resolution = result_.resolution;
+  result_.source_left_out = source.left_out;
+  result_.target_left_out = target.left_out;
   PairTimings& timings = result_.timings;
   begin(PairStep::SourceScan);
   result_.source = workers_.maker.make(source, resolution, content, timings.source);

@@ -3,6 +3,7 @@
 
 #include "scan/scan_maker.h"
 
+#include "scan/left_out.h"
 #include "scan/points.h"
 #include "scan/scan_data.h"
 #include "scan/viewpoint.h"
@@ -112,13 +113,18 @@ PreparedInput::PreparedInput(const ScanInput<Scalar>& input)
   checkRows(input);
   for (const double coordinate : {viewpoint.x(), viewpoint.y(), viewpoint.z()})
     require(std::isfinite(coordinate), "viewpoint", coordinate, "it must be finite");
-  shift = singlePrecisionShift(input.points);
+  BasicPointView<Scalar> given = input.points;
+  left_out = findLeftOut(given, kept);
+  if (left_out.repeated + left_out.stray > 0) {
+    given.indices = kept.data();
+    given.index_count = kept.size();
+  }
+  shift = singlePrecisionShift(given);
   if (!shift.isZero(0) && viewpoint.isZero(0)) {
     viewpoint = shift;
     viewpoint_possible = false;
   }
   normals = {input.normals, input.normal_stride};
-  const BasicPointView<Scalar>& given = input.points;
   if constexpr (std::is_same_v<Scalar, float>)
     if (shift.isZero(0)) {
       points = given;

@@ -5,22 +5,28 @@
 
 #include "scan/cpu/feature_stages.h"
 
-#include <pcl_flashreg/scan.h>
+#include <pcl_flashreg/pair_registration.h>
 
 #include <vector>
 
 namespace pcl_flashreg {
 
-/** \brief A ScanInput, checked, in single precision, and shifted where that takes it; what
- * it was made from must stay. */
+/** \brief A ScanInput, checked, without points that are none, in single precision, and
+ * shifted where that takes it; what it was made from must stay, and so must this. */
 struct PreparedInput {
   /** \throws std::invalid_argument if a stride, a size or an index is out of range */
   template <typename Scalar>
   explicit PreparedInput(const ScanInput<Scalar>& input);
+  PreparedInput(const PreparedInput&) = delete;
+  PreparedInput&
+  operator=(const PreparedInput&) = delete;
 
   PointView points;
   /** \brief Where the points had to be rounded or shifted. */
   std::vector<float> copy;
+  LeftOutPoints left_out;
+  /** \brief Indices of the points, where any were left out. */
+  std::vector<std::int32_t> kept;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   Eigen::Vector3d viewpoint;
   bool viewpoint_known;

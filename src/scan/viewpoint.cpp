@@ -46,9 +46,9 @@ candidatesFor(const cpu::Visibility& visibility)
   for (int x = 0; x < STEPS; ++x)
     for (int y = 0; y < STEPS; ++y)
       for (int z = 0; z < STEPS; ++z)
-        candidates.push_back(
-            {box.col(0) + (box.col(1) - box.col(0))
-                              .cwiseProduct(Eigen::Vector3f(along(x), along(y), along(z)))});
+        candidates.push_back({box.col(0) + (box.col(1) - box.col(0))
+                                               .cwiseProduct(Eigen::Vector3f(
+                                                   along(x), along(y), along(z)))});
   // A spiral over the sphere, turned by the golden angle at each step.
   constexpr float GOLDEN_ANGLE = 2.39996323f;
   for (int i = 0; i < DIRECTIONS; ++i) {
@@ -101,7 +101,8 @@ public:
             return (other.place - candidate.place).norm() < 0.5f * reachOf(candidate);
           }))
         starts.push_back(candidate);
-    pool_.forEach(starts.size(), [&](std::size_t i, std::size_t) { improve(starts[i]); });
+    pool_.forEach(starts.size(),
+                  [&](std::size_t i, std::size_t) { improve(starts[i]); });
     return *std::min_element(
         starts.begin(), starts.end(), [](const auto& a, const auto& b) {
           return a.implausibility < b.implausibility;
@@ -201,15 +202,18 @@ findViewpoint(const cpu::Visibility& visibility,
   // A cloud of which more than this is hidden was put together from several places.
   constexpr double MOST_HIDDEN = 0.3;
   FoundViewpoint found{stated, true, true};
-  if (visibility.size() == 0)
+  // So few keypoints are too coarse a picture to tell.
+  constexpr std::size_t TOO_FEW = 500;
+  if (visibility.size() < TOO_FEW && possible)
     return found;
+  if (visibility.size() == 0)
+    return {stated, true, false};
   Search search(visibility, pool);
   if (!possible ||
       visibility.implausibility(stated, FEW) > search.glance() + AS_GOOD_AS_A_FEW) {
     const Candidate best = search.best();
-    if (!possible ||
-        visibility.implausibility(stated, MANY) >
-            best.implausibility + toleranceAt(visibility, stated, best))
+    if (!possible || visibility.implausibility(stated, MANY) >
+                         best.implausibility + toleranceAt(visibility, stated, best))
       found = {best.place, false, true};
   }
   found.sees_all = visibility.hiddenShare(found.place, MANY) < MOST_HIDDEN;

@@ -17,19 +17,21 @@ struct SurfacePair {
   const Surface& target;
   /** \brief Distance of neighbouring points. */
   float spacing;
+  /** \brief Whether viewpoints count, where they are known. */
+  bool use_viewpoints = true;
 
   /** \brief Whether the normals of both point to a sensor, so that their sign counts. */
   bool
   oriented() const
   {
-    return source.free_space.known() && target.free_space.known();
+    return use_viewpoints && source.free_space.known() && target.free_space.known();
   }
 
   /** \brief Whether the viewpoint of one is known, so that poses can be contradicted. */
   bool
   seeing() const
   {
-    return source.free_space.known() || target.free_space.known();
+    return use_viewpoints && (source.free_space.known() || target.free_space.known());
   }
 };
 

@@ -120,18 +120,21 @@ VoxelCount::sizeFor(double count) const
 }
 
 /** \brief The middle 80 % on every axis: what lies far off, or thinly spread as the
- * far end of a lidar sweep, has no say. */
+ * far end of a lidar sweep, has no say; unless the middle is one place. */
 void
 VoxelCount::setBox(const Axes& axes)
 {
   const std::size_t size = axes[0].size();
-  const std::size_t tail = size / 10;
   double edge = 0;
-  for (std::size_t axis = 0; axis < 3 && size > 0; ++axis) {
-    const auto [low, high] = elementsAt({tail, size - 1 - tail}, axes[axis]);
-    low_[axis] = low;
-    high_[axis] = high;
-    edge = std::max(edge, high_[axis] - low_[axis]);
+  for (const std::size_t tail : {size / 10, std::size_t{0}}) {
+    if (edge > 0 || size == 0)
+      break;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = elementsAt({tail, size - 1 - tail}, axes[axis]);
+      low_[axis] = low;
+      high_[axis] = high;
+      edge = std::max(edge, high_[axis] - low_[axis]);
+    }
   }
   finest_ = edge / (1 << LEVELS);
 }

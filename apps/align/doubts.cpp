@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "doubts.h"
+
+#include "numbers.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_flashreg::align {
+namespace {
+
+std::string
+vectorOf(const Eigen::Vector3d& v)
+{
+  return "(" + shortNumber(v.x()) + " " + shortNumber(v.y()) + " " +
+         shortNumber(v.z()) + ")";
+}
+
+void
+noteLeftOut(const std::string& path,
+            const LeftOutPoints& left_out,
+            const Progress& progress)
+{
+  if (left_out.repeated > 0)
+    progress.note(path + ": " + std::to_string(left_out.repeated) +
+                  " points are left out that lie in one place, most of them at " +
+                  vectorOf(left_out.place) + ": beams without a return?");
+  if (left_out.stray > 0)
+    progress.note(path + ": " + std::to_string(left_out.stray) +
+                  " points are left out that lie beyond all others by orders of "
+                  "magnitude");
+}
+
+void
+noteViewpoint(const InputCloud& cloud,
+              const Scan& scan,
+              bool stated,
+              const Progress& progress)
+{
+  if (!stated || scan.empty() || scan.viewpointSource() == ViewpointSource::Stated)
+    return;
+  const Eigen::Vector3d place(cloud.cloud.viewpoint.data());
+  const std::string not_seen =
+      cloud.path + ": its points were not seen from its viewpoint, " + vectorOf(place);
+  if (scan.viewpointSource() == ViewpointSource::Points)
+    progress.note(not_seen + ", but from about " + vectorOf(*scan.viewpoint()) +
+                  ", by how they lie: that is used");
+  else
+    progress.note(not_seen + ", nor from any one place: none is used");
+}
+
+/** \brief Smallest, middle and largest standard deviation of the keypoints along their
+ * principal axes. */
+Eigen::Vector3d
+spreadOf(const Scan& scan)
+{
+  const Eigen::Map<const Eigen::Matrix3Xf> points(
+      scan.points(), 3, static_cast<Eigen::Index>(scan.size()));
+  const Eigen::Matrix3Xd offsets =
+      points.cast<double>().colwise() - points.cast<double>().rowwise().mean();
+  const Eigen::Matrix3d covariance =
+      offsets * offsets.transpose() / static_cast<double>(scan.size());
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance,
+                                                        Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .cwiseMax(0.0)
+      .cwiseSqrt();
+}
+
+void
+noteFlatness(const std::string& path, const Scan& scan, const Progress& progress)
+{
+  constexpr double FLAT = 0.05;
+  if (!scan.empty() && spreadOf(scan)[0] < FLAT * scan.spacing())
+    progress.note(path + ": is flat: all its points lie in one plane, in which they can "
+                         "slide and turn; such clouds hold no pose in space");
+}
+
+/** \brief Factors between units that people mix up: feet and metres, inches and
+ * centimetres, and so on. */
+constexpr double UNITS[] = {2.54, 3.28084, 10, 12, 25.4, 30.48, 39.3701, 100, 304.8, 1000};
+
+/** \brief How much a ratio is off a factor, in either direction. */
+double
+offBy(double ratio, double factor)
+{
+  return std::abs(std::log(ratio / factor));
+}
+
+/** \brief Whether the spacing of the points and the size of the clouds differ both by what
+ * one unit is in another; scans of one place differ in neither so much. */
+bool
+lookLikeTwoUnits(double resolutions, double extents)
+{
+  constexpr double TOLERANCE = 0.3;
+  if (resolutions < 1) {
+    resolutions = 1 / resolutions;
+    extents = 1 / extents;
+  }
+  return std::any_of(std::begin(UNITS), std::end(UNITS), [&](double factor) {
+    return offBy(resolutions, factor) < TOLERANCE && offBy(extents, factor) < TOLERANCE;
+  });
+}
+
+struct Estimates {
+  double source = 0, target = 0;
+};
+
+double
+medianOf(std::vector<double>& values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/** \brief Median distance from the middle; of all points but those that were left out. */
+double
+extentOf(const InputCloud& cloud, const LeftOutPoints& left_out)
+{
+  const auto is_used = [&](const Eigen::Vector3d& point) {
+    return point.allFinite() && (left_out.repeated == 0 || point != left_out.place);
+  };
+  Eigen::Vector3d middle;
+  std::vector<double> values;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    values.clear();
+    for (const auto& point : cloud.xyz.colwise())
+      if (is_used(point))
+        values.push_back(point[axis]);
+    middle[axis] = medianOf(values);
+  }
+  values.clear();
+  for (const auto& point : cloud.xyz.colwise())
+    if (is_used(point))
+      values.push_back((point - middle).norm());
+  return medianOf(values);
+}
+
+/** \brief The registration's, or where it had a resolution, those that it would have made. */
+std::optional<Estimates>
+estimatesOf(const Inputs& inputs, const PairResult& result)
+{
+  if (result.source_estimate && result.target_estimate)
+    return Estimates{*result.source_estimate, *result.target_estimate};
+  try {
+    return Estimates{resolutionOf(*inputs.source), resolutionOf(*inputs.target)};
+  }
+  catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+void
+noteUnits(const Inputs& inputs, const PairResult& result, const Progress& progress)
+{
+  constexpr double FAR_APART = 5;
+  const std::optional<Estimates> estimates = estimatesOf(inputs, result);
+  if (!estimates)
+    return;
+  const double resolutions = estimates->source / estimates->target;
+  const double extents = extentOf(*inputs.source, result.source_left_out) /
+                         extentOf(*inputs.target, result.target_left_out);
+  if (std::abs(std::log(resolutions)) > std::log(FAR_APART) ||
+      lookLikeTwoUnits(resolutions, extents))
+    progress.note("the source by itself would be seen at a resolution of " +
+                  shortNumber(estimates->source) + ", the target at " +
+                  shortNumber(estimates->target) + ": are both in the same unit?");
+}
+
+} // namespace
+
+void
+noteDoubts(const Options& options,
+           const Inputs& inputs,
+           const PairResult& result,
+           const Progress& progress)
+{
+  if (!inputs.source || !inputs.target)
+    return;
+  noteLeftOut(inputs.source->path, result.source_left_out, progress);
+  noteLeftOut(inputs.target->path, result.target_left_out, progress);
+  if (result.source.empty() || result.target.empty())
+    return;
+  noteViewpoint(
+      *inputs.source, result.source, options.source_viewpoint_known, progress);
+  noteViewpoint(
+      *inputs.target, result.target, options.target_viewpoint_known, progress);
+  if (result.pose.converged)
+    return;
+  noteFlatness(inputs.source->path, result.source, progress);
+  noteFlatness(inputs.target->path, result.target, progress);
+  if (!inputs.source_features && !inputs.correspondences)
+    noteUnits(inputs, result, progress);
+}
+
+} // namespace pcl_flashreg::align
