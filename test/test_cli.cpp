@@ -231,7 +231,7 @@ TEST_F(CliTest, geoReferencedDoublesKeepTheirPrecision)
   const ProgramRun near = align("source.ply target.ply --leaf 0.1 --json -");
   const ProgramRun far =
       align("source_utm.ply target_utm.ply far.ply --leaf 0.1 --json -");
-  ASSERT_EQ(near.status, 0) << near.err << near.out;
+  ASSERT_EQ(near.status, 0) << near.err;
   ASSERT_EQ(far.status, 0) << far.err;
   expectTruth(poseOf(near.json()));
   RigidTransform pose = poseOf(far.json());

@@ -146,9 +146,10 @@ TEST(Scan, OfLargeCoordinatesIsShifted)
     ASSERT_LT((scan.point(i) - Eigen::Vector3d(&far[3 * i])).norm(), 1e-6);
 
   // Nobody saw that from the origin.
-  EXPECT_FALSE(maker()
-                   .makeScan(RoomScans::inputOf(far, Eigen::Vector3d::Zero()), V)
-                   .viewpoint());
+  EXPECT_NE(maker()
+                .makeScan(RoomScans::inputOf(far, Eigen::Vector3d::Zero()), V)
+                .viewpointSource(),
+            ViewpointSource::Stated);
 }
 
 TEST(Scan, OfASurfaceHasNoDescriptors)
@@ -167,7 +168,9 @@ TEST(Scan, OfASurfaceHasNoDescriptors)
 TEST(Scan, TakesGivenNormals)
 {
   const std::vector<float> xyz = toFloat(room().target);
-  // Rows of four, of any length; nobody has turned them.
+  // Rows of four, of any length; nobody has turned them. Few keypoints: with such normals
+  // the viewpoint could not be told from a false one.
+  constexpr double COARSE = 0.4;
   std::vector<float> normals;
   for (std::size_t i = 0; i < xyz.size() / 3; ++i)
     normals.insert(normals.end(), {0, i % 2 ? 3.0f : -2.0f, 0, NOT_A_NUMBER});
@@ -177,19 +180,19 @@ TEST(Scan, TakesGivenNormals)
   input.viewpoint = {1, 50, 1};
   for (const ScanContent content : {ScanContent::Surface, ScanContent::Descriptors}) {
     input.viewpoint_known = true;
-    const Scan towards = maker().makeScan(input, V, content);
-    ASSERT_GT(towards.size(), 500u);
+    const Scan towards = maker().makeScan(input, COARSE, content);
+    ASSERT_GT(towards.size(), 100u);
     for (std::size_t i = 0; i < towards.size(); ++i) {
       ASSERT_EQ(towards.normals()[3 * i], 0);
       ASSERT_EQ(towards.normals()[3 * i + 1], 1);
       ASSERT_EQ(towards.curvatures()[i], 0);
     }
     input.viewpoint_known = false;
-    const Scan unturned = maker().makeScan(input, V, content);
+    const Scan unturned = maker().makeScan(input, COARSE, content);
     std::size_t down = 0;
     for (std::size_t i = 0; i < unturned.size(); ++i)
       down += unturned.normals()[3 * i + 1] == -1;
-    EXPECT_GT(down, 50u);
+    EXPECT_GT(down, 10u);
     EXPECT_LT(down, unturned.size());
   }
 }

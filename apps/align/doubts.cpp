@@ -76,13 +76,15 @@ noteFlatness(const std::string& path, const Scan& scan, const Progress& progress
 {
   constexpr double FLAT = 0.05;
   if (!scan.empty() && spreadOf(scan)[0] < FLAT * scan.spacing())
-    progress.note(path + ": is flat: all its points lie in one plane, in which they can "
-                         "slide and turn; such clouds hold no pose in space");
+    progress.note(path +
+                  ": is flat: all its points lie in one plane, in which they can "
+                  "slide and turn; such clouds hold no pose in space");
 }
 
 /** \brief Factors between units that people mix up: feet and metres, inches and
  * centimetres, and so on. */
-constexpr double UNITS[] = {2.54, 3.28084, 10, 12, 25.4, 30.48, 39.3701, 100, 304.8, 1000};
+constexpr double UNITS[] = {
+    2.54, 3.28084, 10, 12, 25.4, 30.48, 39.3701, 100, 304.8, 1000};
 
 /** \brief How much a ratio is off a factor, in either direction. */
 double

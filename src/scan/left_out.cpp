@@ -38,8 +38,7 @@ samplesOf(const BasicPointView<Scalar>& points)
 bool
 comesFirst(const Place& a, const Place& b)
 {
-  return std::lexicographical_compare(
-      a.data(), a.data() + 3, b.data(), b.data() + 3);
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
 /** \brief Places where many of the samples lie. */
