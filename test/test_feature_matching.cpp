@@ -203,6 +203,51 @@ TEST_P(Matching, TiesGoToTheSmallerIndex)
   EXPECT_EQ(matches[3].squared_distance, 0);
 }
 
+TEST_P(Matching, EqualDescriptorsMatchAsIfEachWereSearched)
+{
+  for (const int kinds : {1, 2, 6, 40})
+    for (const std::size_t dimension : {1, 3, 33}) {
+      const Features queries = made::ofFewKinds(150, dimension, kinds, 31);
+      Features targets = made::ofFewKinds(260, dimension, kinds, 32);
+      targets.values[5 * targets.stride] = std::numeric_limits<float>::quiet_NaN();
+      targets.values[9 * targets.stride] = 0.25f;
+      for (const std::size_t k : {1, 2, 9, 300})
+        for (const unsigned threads : {1u, 3u}) {
+          const MutualMatches both =
+              matchFeaturesBothWays(queries.view(), targets.view(), k, threads);
+          expectSame(both.forward, exhaustive(queries.view(), targets.view(), k));
+          expectSame(both.backward, exhaustive(targets.view(), queries.view(), k));
+        }
+    }
+}
+
+TEST_P(Matching, TakesZerosOfEitherSign)
+{
+  Features queries = made::ofFewKinds(60, 3, 8, 33);
+  Features targets = made::ofFewKinds(90, 3, 8, 34);
+  for (Features* features : {&queries, &targets})
+    for (std::size_t i = 0; i < features->values.size(); i += 3)
+      features->values[i] *= -1;
+  expectExact(queries, targets);
+}
+
+/** \brief The square of their number would be ten thousand million pairs. */
+TEST_P(Matching, TakesManyEqualDescriptors)
+{
+  constexpr std::size_t SIZE = 100000, K = 3;
+  const Features alike{std::vector<float>(SIZE * 33, 3.0f), 33, 33};
+  const MutualMatches both = matchFeaturesBothWays(alike.view(), alike.view(), K, 2);
+  for (const auto& matches : {both.forward, both.backward}) {
+    ASSERT_EQ(matches.size(), K * SIZE);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      ASSERT_EQ(matches[i].query, static_cast<std::int32_t>(i / K));
+      ASSERT_EQ(matches[i].match, static_cast<std::int32_t>(i % K));
+      ASSERT_EQ(matches[i].squared_distance, 0);
+    }
+  }
+  EXPECT_EQ(both.mutual().size(), K * K);
+}
+
 TEST_P(Matching, SkipsDescriptorsThatAreNotFinite)
 {
   Features queries = scattered(20, 33, 33, 4), targets = scattered(40, 33, 33, 5);

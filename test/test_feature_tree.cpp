@@ -19,18 +19,18 @@ using made::Features;
 /** \brief What a search starts from. */
 struct Planted {
   Features queries, targets;
-  FiniteFeatures finite[2];
+  DistinctFeatures distinct[2];
   FeatureSpace space;
   std::array<FeatureTree, 2> trees;
 
   Planted(Features q, Features t, unsigned threads)
       : queries(std::move(q)),
         targets(std::move(t)),
-        finite{FiniteFeatures(queries.view()), FiniteFeatures(targets.view())},
-        space(finite[0], finite[1])
+        distinct{DistinctFeatures(queries.view()), DistinctFeatures(targets.view())},
+        space(distinct[0], distinct[1])
   {
     ThreadPool pool(threads);
-    trees = plantTrees({&finite[0], &finite[1]}, space, pool);
+    trees = plantTrees({&distinct[0], &distinct[1]}, space, pool);
   }
 
   double
@@ -38,7 +38,8 @@ struct Planted {
   {
     double sum = 0;
     for (std::size_t d = 0; d < space.dimension(); ++d) {
-      const double difference = static_cast<double>(finite[0][q][d]) - finite[1][t][d];
+      const double difference =
+          static_cast<double>(distinct[0][q][d]) - distinct[1][t][d];
       sum += difference * difference;
     }
     return std::sqrt(sum) * space.scale();
@@ -71,8 +72,8 @@ TEST(FeatureTree, ShadowsAreNotFartherThanWhatCastsThem)
         longest[side] =
             std::max<double>(longest[side], std::sqrt(shadow.square().sum()));
     const double error = planted.space.slack() * (longest[0] + longest[1]);
-    for (std::size_t q = 0; q < planted.finite[0].size(); ++q)
-      for (std::size_t t = 0; t < planted.finite[1].size(); ++t) {
+    for (std::size_t q = 0; q < planted.distinct[0].size(); ++q)
+      for (std::size_t t = 0; t < planted.distinct[1].size(); ++t) {
         const Eigen::Array4d gap = planted.trees[0].shadows[q].cast<double>() -
                                    planted.trees[1].shadows[t].cast<double>();
         const double shadow = std::sqrt(gap.square().sum());
@@ -125,7 +126,7 @@ TEST(FeatureTree, HoldsEachDescriptorOnceInBoxesThatBoundIt)
       for (std::size_t i = 0; i < size; ++i)
         EXPECT_EQ(sorted[i], static_cast<std::int32_t>(i));
       std::vector<Shadow> shadows(size);
-      planted.space.cast(planted.finite[1], 0, size, shadows.data());
+      planted.space.cast(planted.distinct[1], 0, size, shadows.data());
       for (std::size_t i = 0; i < size; ++i) {
         const Shadow& shadow = shadows[static_cast<std::size_t>(tree.order[i])];
         EXPECT_LT((shadow - tree.shadows[i]).abs().maxCoeff(), 1e-6f);
@@ -134,6 +135,20 @@ TEST(FeatureTree, HoldsEachDescriptorOnceInBoxesThatBoundIt)
       expectBounds(tree, 0, 0, tree.blocks(), leaves);
       EXPECT_EQ(leaves, (size + 31) / 32);
     }
+}
+
+TEST(FeatureTree, HoldsEqualDescriptorsOnce)
+{
+  Features targets = made::ofFewKinds(5000, 33, 200, 3);
+  targets.values[0] = std::numeric_limits<float>::infinity();
+  const Planted planted(made::ofFewKinds(3000, 33, 7, 4), targets, 2);
+  EXPECT_EQ(planted.trees[0].order.size(), 7u);
+  EXPECT_EQ(planted.trees[1].order.size(), 200u);
+  const DistinctFeatures& distinct = planted.distinct[1];
+  EXPECT_EQ(distinct.finite.size(), 4999u);
+  EXPECT_EQ(distinct.rows.size(), 200u);
+  EXPECT_EQ(distinct.rows[0], 1);
+  EXPECT_TRUE(std::is_sorted(distinct.rows.begin(), distinct.rows.end()));
 }
 
 TEST(FeatureTree, BlocksAreSmall)

@@ -169,6 +169,55 @@ TEST_F(FlashRegistrationTest, InliersAreSourcePointsNearTheTarget)
   EXPECT_LT(expected.size(), source->size());
 }
 
+/** \brief Beams without a return, stored as zeros: more of them than there are others. */
+TEST_F(FlashRegistrationTest, InliersAmongEqualPointsAreSearchedForOnce)
+{
+  /** \brief Counts what it is asked for. */
+  struct CountingTree : LazyKdTree<pcl::PointXYZ> {
+    using LazyKdTree<pcl::PointXYZ>::nearestKSearch;
+
+    int
+    nearestKSearch(const pcl::PointXYZ& point,
+                   int k,
+                   pcl::Indices& indices,
+                   std::vector<float>& squared_distances) const override
+    {
+      ++searches;
+      return LazyKdTree::nearestKSearch(point, k, indices, squared_distances);
+    }
+
+    mutable std::size_t searches = 0;
+  };
+  registration.align(output);
+  const pcl::Indices plain = registration.getInliers();
+  const std::size_t size = source->size();
+  source->insert(source->end(), 2 * size, pcl::PointXYZ(0, 0, 0));
+  target->insert(target->end(), 2 * size, pcl::PointXYZ(0, 0, 0));
+  const auto tree = pcl::make_shared<CountingTree>();
+  registration.setSearchMethodTarget(tree);
+  registration.setInputSource(source);
+  registration.setInputTarget(target);
+  registration.align(output);
+  expectFound();
+  const pcl::Indices& inliers = registration.getInliers();
+  EXPECT_EQ(tree->searches, size + 1);
+  // The sensor of the source is far from what the target holds.
+  pcl::Indices of_others;
+  std::copy_if(inliers.begin(),
+               inliers.end(),
+               std::back_inserter(of_others),
+               [&](auto i) { return static_cast<std::size_t>(i) < size; });
+  EXPECT_NEAR(static_cast<double>(of_others.size()),
+              static_cast<double>(plain.size()),
+              0.02 * static_cast<double>(plain.size()));
+  EXPECT_EQ(inliers, of_others);
+  // And where the zeros meet.
+  Cloud::Ptr itself(new Cloud(*target));
+  registration.setInputSource(itself);
+  registration.align(output);
+  EXPECT_EQ(registration.getInliers().size(), itself->size());
+}
+
 TEST_F(FlashRegistrationTest, InlierFractionIsOneMoreCondition)
 {
   registration.setInlierFraction(0.5f);

@@ -44,8 +44,8 @@ PairResult
 align(const std::vector<double>& source)
 {
   PairRegistration registration(BackendKind::Cpu, 2);
-  return registration.align(
-      made::RoomScans::inputOf(source, room().source_viewpoint), room().targetInput());
+  return registration.align(made::RoomScans::inputOf(source, room().source_viewpoint),
+                            room().targetInput());
 }
 
 TEST(LeftOut, BeamsWithoutAReturnChangeNothing)
@@ -89,15 +89,15 @@ TEST(LeftOut, ZerosInAGeoReferencedCloudDoNotCostItsPrecision)
   std::vector<double> source = room().source;
   for (std::size_t i = 0; i < source.size(); ++i)
     source[i] += utm[static_cast<Eigen::Index>(i % 3)];
-  const Scan clean = PairRegistration(BackendKind::Cpu, 1)
-                         .makeScan(made::RoomScans::inputOf(
-                                       source, room().source_viewpoint + utm),
-                                   0.1);
+  const Scan clean =
+      PairRegistration(BackendKind::Cpu, 1)
+          .makeScan(made::RoomScans::inputOf(source, room().source_viewpoint + utm),
+                    0.1);
   made::RoomScans::append(source, Eigen::Vector3d::Zero());
-  const Scan with_zero = PairRegistration(BackendKind::Cpu, 1)
-                             .makeScan(made::RoomScans::inputOf(
-                                           source, room().source_viewpoint + utm),
-                                       0.1);
+  const Scan with_zero =
+      PairRegistration(BackendKind::Cpu, 1)
+          .makeScan(made::RoomScans::inputOf(source, room().source_viewpoint + utm),
+                    0.1);
   EXPECT_EQ(with_zero.serialize(), clean.serialize());
 }
 

@@ -67,8 +67,8 @@ fromThere()
 Eigen::Isometry3d
 frameAt(const Eigen::Vector3d& translation, double turn = 0.7)
 {
-  Eigen::Isometry3d frame =
-      Eigen::Isometry3d(Eigen::AngleAxisd(turn, Eigen::Vector3d(0.1, -0.2, 1).normalized()));
+  Eigen::Isometry3d frame = Eigen::Isometry3d(
+      Eigen::AngleAxisd(turn, Eigen::Vector3d(0.1, -0.2, 1).normalized()));
   frame.pretranslate(translation);
   return frame;
 }
@@ -85,7 +85,8 @@ TEST(Viewpoint, ThatIsTrueIsKept)
 
 TEST(Viewpoint, OfPointsThatSomebodyMovedIsFoundFromThem)
 {
-  const Eigen::Vector3d directions[] = {{1, 0, 0}, {0, -1, 0}, {-1, 1, 0.2}, {0.1, 0.3, -1}};
+  const Eigen::Vector3d directions[] = {
+      {1, 0, 0}, {0, -1, 0}, {-1, 1, 0.2}, {0.1, 0.3, -1}};
   for (const double distance : {12.0, 40.0, 300.0, 3000.0, 1e6})
     for (const Eigen::Vector3d& direction : directions) {
       const Eigen::Isometry3d frame = frameAt(distance * direction.normalized());
@@ -176,7 +177,8 @@ twoWalls()
   std::vector<cpu::SurfaceElement> elements;
   for (int y = 0; y < 40; ++y)
     for (int z = 0; z < 20; ++z) {
-      const float along = 0.1f * static_cast<float>(y), up = 0.1f * static_cast<float>(z);
+      const float along = 0.1f * static_cast<float>(y),
+                  up = 0.1f * static_cast<float>(z);
       elements.push_back({{4, along, up}, {1, 0, 0}, 0, true});
       if (y < 20)
         elements.push_back({{3, along, up}, {-1, 0, 0}, 0, true});

@@ -187,7 +187,8 @@ private:
                      " (--leaf sets another; are both clouds in the same unit?)");
   }
 
-  /** \brief Matching grows faster than the number of keypoints. */
+  /** \brief Matching grows faster than the number of keypoints, unless many are described
+   * alike, which nobody knows before. */
   void
   warnOfLongMatching(std::size_t sources, std::size_t targets) const
   {
@@ -196,7 +197,7 @@ private:
     if (static_cast<double>(sources) * static_cast<double>(targets) > MANY_PAIRS)
       progress_.note("matching " + std::to_string(sources) + " with " +
                      std::to_string(targets) +
-                     " keypoints takes long; a larger --leaf leaves fewer of them");
+                     " keypoints may take long; a larger --leaf leaves fewer of them");
   }
 
   /** \brief Complains about a leaf that was given, and says which would suit. */

@@ -3,11 +3,15 @@
 
 #pragma once
 
+#include <pcl_flashreg/impl/equal_rows.hpp>
+
 #include <pcl/search/kdtree.h>
 
 #include <atomic>
+#include <cstdint>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 namespace pcl_flashreg {
 
@@ -23,6 +27,10 @@ namespace pcl_flashreg {
  * A query point that is not finite has no neighbours (pcl::search::KdTree aborts on it
  * where assertions are on), and an infinite distance where the caller's array has room
  * for one, so that getFitnessScore() skips it.
+ *
+ * Of points that are equal the tree holds one, and the others follow it in what is found, by
+ * their place in the indices: a k-d tree looks at all of them for every query that is near,
+ * which takes the square of their number where beams without a return are stored as zeros.
  */
 template <typename PointT>
 class LazyKdTree : public pcl::search::KdTree<PointT> {
@@ -78,9 +86,28 @@ private:
   bool
   build() const;
 
+  void
+  plant() const;
+
+  /** \brief Fills finite_.
+   * \return its points as the tree sees them, `length` values each */
+  std::vector<float>
+  collectFinite(std::size_t length) const;
+
+  /** \brief Puts the points that equal those found behind them; at most so many of all. */
+  int
+  addEqual(pcl::Indices& indices,
+           std::vector<float>& sqr_distances,
+           std::size_t most) const;
+
   mutable std::atomic<bool> built_{false};
   /** \brief Of the cloud; valid once built_ is true. */
   mutable bool has_points_ = false;
+  /** \brief Where some are equal: the finite ones of the points to search, which of these
+   * are equal, and where the first of each kind is among them, by its number in the cloud. */
+  mutable pcl::Indices finite_;
+  mutable detail::EqualRows equal_;
+  mutable std::vector<std::uint32_t> place_of_;
   mutable std::mutex mutex_;
 };
 

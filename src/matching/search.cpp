@@ -3,6 +3,7 @@
 
 #include "matching/search.h"
 
+#include "matching/cpu/distinct_features.h"
 #include "matching/cpu/feature_search.h"
 #include "matching/cpu/feature_space.h"
 #include "matching/cpu/feature_tree.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -53,13 +55,16 @@ searchFeatures(const FeatureView& queries,
         "queries have dimension " + std::to_string(queries.dimension) +
         ", targets have dimension " + std::to_string(targets.dimension));
 
-  const FiniteFeatures finite[2] = {FiniteFeatures(queries), FiniteFeatures(targets)};
-  if (finite[0].size() == 0 || finite[1].size() == 0)
+  std::optional<DistinctFeatures> sides[2];
+  pool.forEach(2, [&](std::size_t side, std::size_t) {
+    sides[side].emplace(side == 0 ? queries : targets);
+  });
+  const DistinctFeatures &from = *sides[0], &to = *sides[1];
+  if (from.size() == 0 || to.size() == 0)
     return {};
-  const FeatureSpace space(finite[0], finite[1]);
-  const std::array<FeatureTree, 2> trees =
-      plantTrees({&finite[0], &finite[1]}, space, pool);
-  const FeatureSet sets[2] = {{finite[0], trees[0]}, {finite[1], trees[1]}};
+  const FeatureSpace space(from, to);
+  const std::array<FeatureTree, 2> trees = plantTrees({&from, &to}, space, pool);
+  const FeatureSet sets[2] = {{from, trees[0]}, {to, trees[1]}};
   MutualMatches matches;
   matches.forward = searchNearest(sets[0], sets[1], space, k, pool);
   if (both_ways)

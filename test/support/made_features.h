@@ -57,6 +57,23 @@ onSurface(std::size_t size, std::size_t dimension, double noise, std::uint64_t s
   return features;
 }
 
+/** \brief Descriptors of a few kinds, in no order; the kinds are the same for every seed,
+ * and many are as far from each other as others are. */
+inline Features
+ofFewKinds(std::size_t size, std::size_t dimension, int kinds, std::uint64_t seed)
+{
+  Random random(seed);
+  Features features{{}, dimension, dimension + 1};
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto kind = static_cast<int>(random.uniform(0, kinds));
+    for (std::size_t d = 0; d <= dimension; ++d)
+      // What lies between two descriptors is not part of them.
+      features.values.push_back(
+          static_cast<float>(d < dimension ? (kind >> d % 8) % 2 : i));
+  }
+  return features;
+}
+
 /** \brief Every value times a factor, plus an offset. */
 inline Features
 moved(Features features, double factor, double offset)

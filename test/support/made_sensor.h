@@ -67,7 +67,9 @@ private:
 
   /** \brief Ranges at which a ray enters a box and leaves it. */
   static std::pair<double, double>
-  crossing(const Box& box, const Eigen::Vector3d& from, const Eigen::Vector3d& direction)
+  crossing(const Box& box,
+           const Eigen::Vector3d& from,
+           const Eigen::Vector3d& direction)
   {
     double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {

@@ -6,10 +6,14 @@
 #pragma once
 
 #include <pcl_flashreg/flash_registration.h>
+#include <pcl_flashreg/impl/equal_rows.hpp>
 
 #include <pcl/common/point_tests.h>
 #include <pcl/common/transforms.h>
 #include <pcl/console/print.h>
+
+#include <cstdint>
+#include <vector>
 
 namespace pcl_flashreg {
 
@@ -88,23 +92,35 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::getInliers() const
   if (tree_->getInputCloud() != target_ && !force_no_recompute_)
     tree_->setInputCloud(target_);
   const RigidTransform& pose = result_.T_target_source;
-  inliers_.emplace();
   pcl::Indices neighbor(1);
   std::vector<float> squared_distance(1);
-  for (const auto index : *indices_) {
-    const PointSource& point = (*input_)[index];
-    if (!pcl::isXYZFinite(point))
-      continue;
+  const auto reaches_target = [&](const PointSource& point) {
     const Eigen::Vector3f moved =
         (pose.rotation * point.getVector3fMap().template cast<double>() +
          pose.translation)
             .template cast<float>();
     PointTarget query;
     query.getVector3fMap() = moved;
-    if (tree_->nearestKSearch(query, 1, neighbor, squared_distance) > 0 &&
-        squared_distance[0] < inlier_distance_ * inlier_distance_)
-      inliers_->push_back(index);
-  }
+    return tree_->nearestKSearch(query, 1, neighbor, squared_distance) > 0 &&
+           squared_distance[0] < inlier_distance_ * inlier_distance_;
+  };
+  pcl::Indices finite;
+  for (const auto index : *indices_)
+    if (pcl::isXYZFinite((*input_)[index]))
+      finite.push_back(index);
+  // Beams without a return are often stored as thousands of equal points.
+  const detail::EqualRows equal(finite.size(), 3, [&](std::size_t i) {
+    return (*input_)[finite[i]].getVector3fMap().data();
+  });
+  std::vector<bool> is_inlier(finite.size());
+  for (const std::uint32_t first : equal.firsts())
+    if (reaches_target((*input_)[finite[first]]))
+      for (std::uint32_t i = first; i != detail::EqualRows::NONE; i = equal.next(i))
+        is_inlier[i] = true;
+  inliers_.emplace();
+  for (std::size_t i = 0; i < finite.size(); ++i)
+    if (is_inlier[i])
+      inliers_->push_back(finite[i]);
   return *inliers_;
 }
 

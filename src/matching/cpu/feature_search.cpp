@@ -4,12 +4,14 @@
 // Queries descend the targets' tree in groups, and leave out what their shadows show to be
 // too far. In the blocks that they reach, inner products in single precision rule out
 // nearly every pair; what could be among the k best is measured in double precision, so
-// that the result is that of an exhaustive search in double precision.
+// that the result is that of an exhaustive search in double precision. All of this among
+// descriptors that differ; match_table.cpp has the others.
 
 #include "matching/cpu/feature_search.h"
 
 #include "support/aligned_buffer.h"
 #include "simd/kernels.h"
+#include "matching/cpu/match_table.h"
 #include "matching/cpu/nearest_lists.h"
 
 #include <algorithm>
@@ -287,30 +289,25 @@ searchNearest(const FeatureSet& queries,
   const cpu::Kernels& kernels = cpu::selectKernels();
   const TargetBlocks blocks(targets, space, pool);
   const std::size_t size = queries.features.size();
-  const std::size_t length = std::min(k, targets.features.size());
-  std::vector<FeatureMatch> matches(size * length);
-  const auto write = [&](std::size_t query, const NearestLists& lists, std::size_t q) {
-    FeatureMatch* match = matches.data() + query * length;
-    for (const Candidate* found = lists.begin(q); found != lists.end(q); ++found)
-      *match++ = {queries.features.rows[query],
-                  targets.features.rows[static_cast<std::size_t>(found->index)],
-                  static_cast<float>(found->squared_distance)};
-  };
+  const std::size_t nearest = std::min(k, targets.features.size());
+  MatchTable matches(queries.features, targets.features, k);
   constexpr std::size_t TASK = GROUPS_A_TASK * QUERY_BLOCK;
   std::vector<std::optional<GroupSearch>> searches(pool.size());
   pool.forEach((size + TASK - 1) / TASK, [&](std::size_t task, std::size_t thread) {
     std::optional<GroupSearch>& search = searches[thread];
     if (!search)
-      search.emplace(queries, targets, blocks, space, length, kernels);
+      search.emplace(queries, targets, blocks, space, nearest, kernels);
     const std::size_t end = std::min(size, (task + 1) * TASK);
     for (std::size_t first = task * TASK; first < end; first += QUERY_BLOCK) {
       const std::size_t last = std::min(end, first + QUERY_BLOCK);
       const NearestLists& lists = search->run(first, last);
       for (std::size_t i = first; i < last; ++i)
-        write(static_cast<std::size_t>(queries.tree.order[i]), lists, i - first);
+        matches.enter(static_cast<std::size_t>(queries.tree.order[i]),
+                      lists.begin(i - first),
+                      lists.end(i - first));
     }
   });
-  return matches;
+  return matches.take();
 }
 
 } // namespace pcl_flashreg

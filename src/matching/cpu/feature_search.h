@@ -12,7 +12,7 @@ namespace pcl_flashreg {
 
 /** \brief One side of a search. */
 struct FeatureSet {
-  const FiniteFeatures& features;
+  const DistinctFeatures& features;
   const FeatureTree& tree;
 };
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace pcl_flashreg {
 namespace {
@@ -21,39 +20,10 @@ constexpr std::size_t SAMPLES = 256;
 constexpr int ROUNDS = 5;
 constexpr Eigen::Index COMPONENTS = Shadow::RowsAtCompileTime - 1;
 
-/** \brief The largest absolute value, as its bits: those of what is not finite are larger
- * than any finite value's. */
-std::int32_t
-largestMagnitude(const float* values, std::size_t n)
-{
-  std::int32_t largest = 0;
-  for (std::size_t d = 0; d < n; ++d) {
-    std::int32_t bits;
-    std::memcpy(&bits, values + d, sizeof(bits));
-    largest = std::max(largest, bits & 0x7fffffff);
-  }
-  return largest;
-}
-
 } // namespace
 
-FiniteFeatures::FiniteFeatures(const FeatureView& features) : view(features)
-{
-  constexpr std::int32_t INFINITE = 0x7f800000;
-  rows.reserve(view.size);
-  std::int32_t most = 0;
-  for (std::size_t i = 0; i < view.size; ++i) {
-    const std::int32_t magnitude =
-        largestMagnitude(view.data + i * view.stride, view.dimension);
-    if (magnitude >= INFINITE)
-      continue;
-    rows.push_back(static_cast<std::int32_t>(i));
-    most = std::max(most, magnitude);
-  }
-  std::memcpy(&largest, &most, sizeof(largest));
-}
-
-FeatureSpace::FeatureSpace(const FiniteFeatures& queries, const FiniteFeatures& targets)
+FeatureSpace::FeatureSpace(const DistinctFeatures& queries,
+                           const DistinctFeatures& targets)
 {
   const auto dimension = static_cast<Eigen::Index>(targets.view.dimension);
   const float largest = std::max(queries.largest, targets.largest);
@@ -87,7 +57,7 @@ FeatureSpace::centre(const float* descriptor, float* centred) const
 }
 
 void
-FeatureSpace::cast(const FiniteFeatures& features,
+FeatureSpace::cast(const DistinctFeatures& features,
                    std::size_t begin,
                    std::size_t end,
                    Shadow* shadows) const

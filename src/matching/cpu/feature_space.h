@@ -3,38 +3,13 @@
 
 #pragma once
 
-#include <pcl_flashreg/feature_matching.h>
+#include "matching/cpu/distinct_features.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace pcl_flashreg {
-
-/** \brief The descriptors of a set that are finite. */
-struct FiniteFeatures {
-  FeatureView view;
-  /** \brief Their rows in the view, ascending. */
-  std::vector<std::int32_t> rows;
-  /** \brief The largest absolute value in them. */
-  float largest = 0;
-
-  explicit FiniteFeatures(const FeatureView& features);
-
-  std::size_t
-  size() const
-  {
-    return rows.size();
-  }
-
-  const float*
-  operator[](std::size_t i) const
-  {
-    return view.data + static_cast<std::size_t>(rows[i]) * view.stride;
-  }
-};
 
 /** \brief What is left of a descriptor in four dimensions. */
 using Shadow = Eigen::Array4f;
@@ -46,7 +21,7 @@ using Shadow = Eigen::Array4f;
  */
 class FeatureSpace {
 public:
-  FeatureSpace(const FiniteFeatures& queries, const FiniteFeatures& targets);
+  FeatureSpace(const DistinctFeatures& queries, const DistinctFeatures& targets);
 
   std::size_t
   dimension() const
@@ -67,7 +42,7 @@ public:
 
   /** \brief Shadows of descriptors [begin, end). */
   void
-  cast(const FiniteFeatures& features,
+  cast(const DistinctFeatures& features,
        std::size_t begin,
        std::size_t end,
        Shadow* shadows) const;

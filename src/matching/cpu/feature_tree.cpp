@@ -123,7 +123,7 @@ struct Task {
 };
 
 void
-castShadows(const std::array<const FiniteFeatures*, 2>& features,
+castShadows(const std::array<const DistinctFeatures*, 2>& features,
             const FeatureSpace& space,
             std::array<FeatureTree, 2>& trees,
             ThreadPool& pool)
@@ -155,7 +155,7 @@ FeatureTree::bounds(std::size_t begin, std::size_t end) const
 }
 
 std::array<FeatureTree, 2>
-plantTrees(const std::array<const FiniteFeatures*, 2>& features,
+plantTrees(const std::array<const DistinctFeatures*, 2>& features,
            const FeatureSpace& space,
            ThreadPool& pool)
 {

@@ -66,7 +66,7 @@ struct FeatureTree {
 
 /** \brief The trees of both sets of a search. */
 std::array<FeatureTree, 2>
-plantTrees(const std::array<const FiniteFeatures*, 2>& features,
+plantTrees(const std::array<const DistinctFeatures*, 2>& features,
            const FeatureSpace& space,
            ThreadPool& pool);
 

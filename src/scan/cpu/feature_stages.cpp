@@ -43,6 +43,29 @@ void
 FeatureStages::neighborGrid(double radius)
 {
   grid_.build(keypoints_, radius);
+  equal_ = voxel_size_ > 0 ? detail::EqualRows()
+                           : detail::EqualRows(grid_.size(), 3, [this](std::size_t i) {
+                               return &keypoints_[3 * std::size_t{grid_.row(i)}];
+                             });
+}
+
+void
+FeatureStages::findPlaces()
+{
+  places_.clear();
+  places_.reserve(grid_.size());
+  if (equal_.allDiffer()) {
+    for (std::size_t i = 0; i < grid_.size(); ++i)
+      if (!grid_.isRemoved(i))
+        places_.push_back(i);
+    return;
+  }
+  for (std::uint32_t i : equal_.firsts()) {
+    while (i != detail::EqualRows::NONE && grid_.isRemoved(i))
+      i = equal_.next(i);
+    if (i != detail::EqualRows::NONE)
+      places_.push_back(i);
+  }
 }
 
 DescribedCloud

@@ -12,6 +12,7 @@
 #include "support/thread_pool.h"
 
 #include <pcl_flashreg/feature_extractor.h>
+#include <pcl_flashreg/impl/equal_rows.hpp>
 
 #include <vector>
 
@@ -71,10 +72,24 @@ private:
     std::size_t count = 0;
   };
 
-  /** \brief Calls visit(i, neighbors) for every point of the grid that was not removed. */
+  /** \brief Fills places_. */
+  void
+  findPlaces();
+
+  /** \brief Calls visit(i, neighbors) for one point of the grid at every place where there
+   * are any that were not removed: what equals it has the same neighbours. */
   template <typename Visit>
   void
-  forEachPoint(double radius, const Visit& visit);
+  forEachPlace(double radius, const Visit& visit);
+
+  /** \brief Calls visit(j) for the point that forEachPlace() visits, and for those that
+   * equal it. */
+  template <typename Visit>
+  void
+  forEachAt(std::size_t i, const Visit& visit) const;
+
+  void
+  shareHistogram(std::size_t i, AlignedBuffer<float>& histograms) const;
 
   const Kernels& kernels_;
   ThreadPool& pool_;
@@ -85,6 +100,11 @@ private:
   /** \brief n x 3, in the order of the voxels. */
   std::vector<float> keypoints_;
   NeighborGrid grid_;
+  /** \brief Points of the grid, where every point is a keypoint; centroids of voxels
+   * differ. */
+  detail::EqualRows equal_;
+  /** \brief Points that are visited. */
+  std::vector<std::size_t> places_;
   std::vector<Neighbors> neighbors_;
   /** \brief In the order of the grid, as the rest. */
   std::vector<float> curvatures_;
@@ -107,26 +127,37 @@ padNeighbors(std::uint32_t* indices, std::size_t count, std::uint32_t with)
 
 template <typename Visit>
 void
-FeatureStages::forEachPoint(double radius, const Visit& visit)
+FeatureStages::forEachAt(std::size_t i, const Visit& visit) const
+{
+  visit(i);
+  for (std::uint32_t j = equal_.next(static_cast<std::uint32_t>(i));
+       j != detail::EqualRows::NONE;
+       j = equal_.next(j))
+    if (!grid_.isRemoved(j))
+      visit(std::size_t{j});
+}
+
+template <typename Visit>
+void
+FeatureStages::forEachPlace(double radius, const Visit& visit)
 {
   constexpr std::size_t TASK = 64;
   const auto squared_radius = static_cast<float>(radius * radius);
+  findPlaces();
   neighbors_.resize(pool_.size());
-  const std::size_t tasks = (grid_.size() + TASK - 1) / TASK;
+  const std::size_t tasks = (places_.size() + TASK - 1) / TASK;
   pool_.forEach(tasks, [&](std::size_t task, std::size_t thread) {
     Neighbors& around = neighbors_[thread];
     around.indices.resize(grid_.capacity());
     around.squared_distances.resize(grid_.capacity());
-    const std::size_t end = std::min(grid_.size(), (task + 1) * TASK);
-    for (std::size_t i = task * TASK; i < end; ++i) {
-      if (grid_.isRemoved(i))
-        continue;
+    const std::size_t end = std::min(places_.size(), (task + 1) * TASK);
+    for (std::size_t p = task * TASK; p < end; ++p) {
       around.count = grid_.collect(kernels_,
-                                   i,
+                                   places_[p],
                                    squared_radius,
                                    around.indices.data(),
                                    around.squared_distances.data());
-      visit(i, around);
+      visit(places_[p], around);
     }
   });
 }

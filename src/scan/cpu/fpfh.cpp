@@ -7,6 +7,8 @@
 
 #include "scan/cpu/feature_stages.h"
 
+#include <algorithm>
+
 namespace pcl_flashreg {
 namespace cpu {
 namespace {
@@ -35,12 +37,25 @@ normalizeThirds(float* histogram)
 
 } // namespace
 
+/** \brief Gives the points that equal point i its histogram: their normals are computed, and
+ * so the same as well. */
+void
+FeatureStages::shareHistogram(std::size_t i, AlignedBuffer<float>& histograms) const
+{
+  forEachAt(i, [&](std::size_t j) {
+    if (j != i)
+      std::copy_n(histograms.begin() + i * HISTOGRAM_STRIDE,
+                  HISTOGRAM_STRIDE,
+                  histograms.begin() + j * HISTOGRAM_STRIDE);
+  });
+}
+
 void
 FeatureStages::pointHistograms(double radius)
 {
   point_histograms_.resize(grid_.size() * HISTOGRAM_STRIDE);
   std::fill(point_histograms_.begin(), point_histograms_.end(), 0.0f);
-  forEachPoint(radius, [&](std::size_t i, Neighbors& around) {
+  forEachPlace(radius, [&](std::size_t i, Neighbors& around) {
     const std::size_t padded = padNeighbors(
         around.indices.data(), around.count, static_cast<std::uint32_t>(i));
     std::uint32_t counts[FPFH_BINS] = {};
@@ -55,6 +70,7 @@ FeatureStages::pointHistograms(double radius)
     float* histogram = point_histograms_.data() + i * HISTOGRAM_STRIDE;
     for (std::size_t bin = 0; bin < FPFH_BINS; ++bin)
       histogram[bin] = share * static_cast<float>(counts[bin]);
+    shareHistogram(i, point_histograms_);
   });
 }
 
@@ -63,7 +79,7 @@ FeatureStages::featureHistograms(double radius)
 {
   feature_histograms_.resize(grid_.size() * HISTOGRAM_STRIDE);
   std::vector<char> has_pairs(grid_.size(), 0);
-  forEachPoint(radius, [&](std::size_t i, Neighbors& around) {
+  forEachPlace(radius, [&](std::size_t i, Neighbors& around) {
     // Weights take the place of the distances; the point itself, and whatever coincides
     // with it, has none.
     std::size_t count = 0;
@@ -78,7 +94,9 @@ FeatureStages::featureHistograms(double radius)
                             around.squared_distances.data(),
                             count,
                             histogram);
-    has_pairs[i] = normalizeThirds(histogram) ? 1 : 0;
+    const bool any = normalizeThirds(histogram);
+    forEachAt(i, [&](std::size_t j) { has_pairs[j] = any ? 1 : 0; });
+    shareHistogram(i, feature_histograms_);
   });
   for (std::size_t i = 0; i < grid_.size(); ++i)
     if (!has_pairs[i])

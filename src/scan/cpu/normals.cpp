@@ -89,8 +89,10 @@ FeatureStages::normals(const PointView& points,
   if (complete)
     return;
 
-  forEachPoint(radius, [&](std::size_t i, Neighbors& around) {
-    if (!missing(i) || around.count < FEWEST_NEIGHBORS)
+  forEachPlace(radius, [&](std::size_t i, Neighbors& around) {
+    bool wanted = false;
+    forEachAt(i, [&](std::size_t j) { wanted |= missing(j); });
+    if (!wanted || around.count < FEWEST_NEIGHBORS)
       return;
     const float point[3] = {arrays.x[i], arrays.y[i], arrays.z[i]};
     const std::size_t padded = padNeighbors(
@@ -102,8 +104,13 @@ FeatureStages::normals(const PointView& points,
     Vec3 normal;
     if (!smallestEigenvector(spread, smallest, normal))
       return;
-    set(i, normal, NormalSource::Computed);
-    curvatures_[i] = static_cast<float>(smallest / (spread.xx + spread.yy + spread.zz));
+    const double trace = spread.xx + spread.yy + spread.zz;
+    forEachAt(i, [&](std::size_t j) {
+      if (!missing(j))
+        return;
+      set(j, normal, NormalSource::Computed);
+      curvatures_[j] = static_cast<float>(smallest / trace);
+    });
   });
   for (std::size_t i = 0; i < grid_.size(); ++i)
     if (missing(i))
