@@ -13,6 +13,11 @@ function(pcl_flashreg_compile_options target)
   if(PCL_FLASHREG_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+  if(PCL_FLASHREG_SANITIZE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
+    # The standard library looks at its indices, too.
+    target_compile_definitions(${target} PRIVATE
+      $<$<COMPILE_LANGUAGE:CXX>:_GLIBCXX_ASSERTIONS>)
+  endif()
   if(PCL_FLASHREG_SANITIZE)
     target_compile_options(${target} PRIVATE
       -fsanitize=${PCL_FLASHREG_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)

@@ -8,6 +8,7 @@
 #include "evaluate/features/truth.h"
 #include "evaluate_support.h"
 #include "io/file.h"
+#include "support/whole_file.h"
 
 namespace pcl_flashreg::evaluate {
 namespace {
@@ -134,7 +135,7 @@ TEST_F(EvaluateFeatures, whatAKilledProcessLeftIsNoObstacle)
   describe();
   const std::string key = cached().at(0).filename().string();
   fs::remove(path("cache/" + key));
-  write("cache/" + key + ".part" + std::to_string(::getpid()), "half");
+  write(partNameOf("cache/" + key), "half");
   describe();
   ASSERT_EQ(cached().size(), 1u);
   EXPECT_EQ(cached().at(0).filename().string(), key);

@@ -5,18 +5,15 @@
 // Numbers are little-endian.
 
 #include "scan/scan_data.h"
+#include "support/byte_order.h"
 #include "support/checksum.h"
+#include "support/whole_file.h"
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
+#include <cstddef>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <system_error>
-#include <thread>
 
 namespace pcl_flashreg {
 namespace {
@@ -58,7 +55,21 @@ template <typename Value>
 void
 append(std::string& bytes, const std::vector<Value>& values)
 {
+  const std::size_t begin = bytes.size();
   append(bytes, values.data(), values.size() * sizeof(Value));
+  swapToLittleEndian(&bytes[begin], values.size() * sizeof(Value), sizeof(Value));
+}
+
+/** \brief To the order of the file's bytes, and back. */
+Header
+swapped(Header header)
+{
+  char* const bytes = reinterpret_cast<char*>(&header);
+  constexpr std::size_t WORDS = offsetof(Header, version),
+                        LONGS = offsetof(Header, size);
+  swapToLittleEndian(bytes + WORDS, LONGS - WORDS, 4);
+  swapToLittleEndian(bytes + LONGS, sizeof(header) - LONGS, 8);
+  return header;
 }
 
 /** \brief Bytes that a scan with this header has in all. */
@@ -82,6 +93,8 @@ take(std::string_view& bytes, std::size_t count, std::vector<Value>& values)
   values.resize(count);
   if (count > 0)
     std::memcpy(values.data(), bytes.data(), count * sizeof(Value));
+  swapToLittleEndian(
+      reinterpret_cast<char*>(values.data()), count * sizeof(Value), sizeof(Value));
   bytes.remove_prefix(aligned(count * sizeof(Value)));
 }
 
@@ -96,6 +109,7 @@ checkedHeader(std::string_view bytes)
   if (bytes.size() < sizeof(header))
     throw ScanFileError("is incomplete: it ends within its header");
   std::memcpy(&header, bytes.data(), sizeof(header));
+  header = swapped(header);
   if (header.byte_order != BYTE_ORDER_MARK)
     throw ScanFileError("comes from a machine of another byte order, or is damaged");
   if (header.version != VERSION)
@@ -142,12 +156,6 @@ checkContents(const Header& header, const Scan::Data& data)
     throw ScanFileError("holds numbers that no scan has");
 }
 
-std::string
-reasonOf(int error)
-{
-  return std::generic_category().message(error);
-}
-
 } // namespace
 
 std::string
@@ -170,13 +178,15 @@ Scan::serialize() const
 
   std::string bytes;
   bytes.reserve(sizeFor(header));
+  header = swapped(header);
   append(bytes, &header, sizeof(header));
   append(bytes, data.points);
   append(bytes, data.normals);
   append(bytes, data.curvatures);
   append(bytes, data.descriptors);
   append(bytes, data.origins);
-  const std::uint64_t checksum = checksumOf(bytes.data(), bytes.size());
+  std::uint64_t checksum = checksumOf(bytes.data(), bytes.size());
+  swapToLittleEndian(reinterpret_cast<char*>(&checksum), 8, 8);
   bytes.append(reinterpret_cast<const char*>(&checksum), sizeof(checksum));
   return bytes;
 }
@@ -188,6 +198,7 @@ Scan::deserialize(std::string_view bytes)
   std::uint64_t checksum;
   const std::size_t end = bytes.size() - sizeof(checksum);
   std::memcpy(&checksum, bytes.data() + end, sizeof(checksum));
+  swapToLittleEndian(reinterpret_cast<char*>(&checksum), 8, 8);
   if (checksum != checksumOf(bytes.data(), end))
     throw ScanFileError("is damaged: its checksum is not that of its contents");
 
@@ -213,37 +224,22 @@ Scan::deserialize(std::string_view bytes)
 void
 Scan::save(const std::string& path) const
 {
-  const std::string bytes = serialize();
-  std::ostringstream temporary;
-  temporary << path << ".part" << std::this_thread::get_id();
-  const auto fail = [&](const std::string& reason) {
-    std::remove(temporary.str().c_str());
-    throw ScanFileError(path + ": cannot be written: " + reason);
-  };
-  {
-    std::ofstream file(temporary.str(), std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file)
-      fail(reasonOf(errno));
+  try {
+    writeWholeFile(path, serialize());
   }
-  std::error_code error;
-  std::filesystem::rename(temporary.str(), path, error);
-  if (error)
-    fail(error.message());
+  catch (const std::system_error& error) {
+    throw ScanFileError(path + ": cannot be written: " + error.code().message());
+  }
 }
 
 Scan
 Scan::load(const std::string& path)
 {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream contents;
-  if (!file || std::filesystem::is_directory(path))
-    throw ScanFileError(
-        path + ": cannot be read: " + (file ? "is a directory" : reasonOf(errno)));
-  contents << file.rdbuf();
   try {
-    return deserialize(contents.str());
+    return deserialize(readWholeFile(path));
+  }
+  catch (const std::system_error& error) {
+    throw ScanFileError(path + ": cannot be read: " + error.code().message());
   }
   catch (const ScanFileError& error) {
     throw ScanFileError(path + ": " + error.what());

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "support/byte_order.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -21,6 +23,7 @@ checksumOf(const char* bytes, std::size_t size)
   for (std::size_t i = 0; i < size; i += 8) {
     std::uint64_t word;
     std::memcpy(&word, bytes + i, 8);
+    swapToLittleEndian(reinterpret_cast<char*>(&word), 8, 8);
     sum = (sum ^ word) * 0x100000001b3u;
     sum ^= sum >> 32;
   }

@@ -11,6 +11,9 @@
 
 #include <pcl_flashreg/pair_registration.h>
 
+#include <cmath>
+#include <iterator>
+
 namespace pcl_flashreg::fuzz {
 namespace {
 
@@ -131,6 +134,59 @@ estimatorSeeds()
   return {bytesOf(shifted), bytesOf(same), bytesOf(random_pairs), ""};
 }
 
+/** \brief Numbers of every size, some not even that. */
+std::string
+oddNumbers()
+{
+  constexpr float ODD[] = {0.0f,
+                           -0.0f,
+                           1e-45f,
+                           -1e-40f,
+                           1.2e-38f,
+                           1e-20f,
+                           1e18f,
+                           -3e19f,
+                           3.4e38f,
+                           INFINITY,
+                           -INFINITY,
+                           NAN,
+                           1.0f,
+                           1.0000001f};
+  made::Random random(5);
+  std::vector<float> values;
+  for (int i = 0; i < 1200; ++i) {
+    const std::uint64_t which = random.next() % 40;
+    values.push_back(which < std::size(ODD)
+                         ? ODD[which]
+                         : static_cast<float>(random.uniform(-1, 1)));
+  }
+  return bytesOf(values);
+}
+
+/** \brief Points of a corner, whose normals are parallel in threes, then others. */
+std::string
+cornerAndScatter()
+{
+  made::Random random(6);
+  std::vector<float> values;
+  for (int i = 0; i < 300; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      values.push_back(
+          i < 240 && i % 3 == axis ? 0.0f : static_cast<float>(random.uniform(0, 2)));
+  return bytesOf(values);
+}
+
+/** \brief Points of a lattice: distances tie. */
+std::string
+lattice()
+{
+  std::vector<float> values;
+  for (int i = 0; i < 300; ++i)
+    for (const int step : {i % 7, i / 7 % 6, i / 42})
+      values.push_back(0.25f * static_cast<float>(step));
+  return bytesOf(values);
+}
+
 } // namespace
 
 std::vector<NamedTarget>
@@ -147,7 +203,18 @@ allTargets()
        readTransform,
        {"1 0 0 0.5\n0 1 0 -2\n0 0 1 3e2\n0 0 0 1\n", "0 -1 0 1 1 0 0 2 0 0 1 3"}},
       {"scan", readScan, scanSeeds()},
-      {"estimate", estimate, estimatorSeeds()}};
+      {"estimate", estimate, estimatorSeeds()},
+      {"kernels_on_every_variant",
+       kernelsOnEveryVariant,
+       {oddNumbers(), cornerAndScatter(), lattice()},
+       4000,
+       20},
+      {"estimate_on_every_variant", estimateOnEveryVariant, estimatorSeeds(), 1000, 20},
+      {"register_on_every_variant",
+       registerOnEveryVariant,
+       {oddNumbers(), cornerAndScatter(), lattice()},
+       500,
+       36}};
 }
 
 } // namespace pcl_flashreg::fuzz

@@ -39,11 +39,24 @@ readScan(std::string_view bytes);
 void
 estimate(std::string_view bytes);
 
+/** \brief Hot loops, the estimator on correspondences and the registration of points that
+ * are the bytes: the same for every instruction set of this machine, to the last bit. */
+void
+kernelsOnEveryVariant(std::string_view bytes);
+void
+estimateOnEveryVariant(std::string_view bytes);
+void
+registerOnEveryVariant(std::string_view bytes);
+
 /** \brief A target, and inputs from which mutations reach far into it. */
 struct NamedTarget {
   const char* name;
   Target target;
   std::vector<std::string> seeds;
+  /** \brief Mutations of each seed. */
+  int rounds = 4000;
+  /** \brief Bytes that are cut off at a time. */
+  std::size_t truncation = 1;
 };
 
 std::vector<NamedTarget>
