@@ -180,6 +180,7 @@ withFields(const Cloud& cloud, const std::vector<Field>& fields)
   copy.width = cloud.width;
   copy.height = cloud.height;
   copy.viewpoint = cloud.viewpoint;
+  copy.notes = cloud.notes;
   copy.data.assign(cloud.size() * copy.point_size, 0);
   for (const Field& to : copy.fields) {
     const Field* from = cloud.find(to.name);

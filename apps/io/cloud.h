@@ -65,6 +65,8 @@ struct Cloud {
   std::vector<std::uint8_t> data;
   /** \brief PCD's VIEWPOINT: tx ty tz qw qx qy qz. */
   std::array<double, 7> viewpoint = {0, 0, 0, 1, 0, 0, 0};
+  /** \brief What people should know of how the file was read, one line each. */
+  std::vector<std::string> notes;
 
   std::size_t
   size() const
