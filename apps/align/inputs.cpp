@@ -14,12 +14,14 @@ namespace {
 using io::InputError;
 
 InputCloud
-readInputCloud(const std::string& path, const Progress& progress)
+readInputCloud(const std::string& path,
+               const Options& options,
+               const Progress& progress)
 {
   progress.say("reading " + path);
   InputCloud input;
   input.path = path;
-  input.cloud = io::readCloud(path);
+  input.cloud = io::readCloud(path, options.bin_fields);
   try {
     input.xyz = io::coordinates(input.cloud);
   }
@@ -126,9 +128,9 @@ readInputs(const Options& options, const Progress& progress)
   if (!options.guess.empty())
     inputs.guess = io::parseFile(options.guess, io::parseTransform);
   if (!options.source.empty())
-    inputs.source = readInputCloud(options.source, progress);
+    inputs.source = readInputCloud(options.source, options, progress);
   if (!options.target.empty())
-    inputs.target = readInputCloud(options.target, progress);
+    inputs.target = readInputCloud(options.target, options, progress);
   if (!options.correspondences.empty()) {
     inputs.correspondences = readCorrespondences(options.correspondences, inputs);
     return inputs;
