@@ -274,6 +274,27 @@ TEST_F(CliTest, readsKittiScans)
             (100 * 7 + 3) % 251);
 }
 
+TEST_F(CliTest, readsRawScansOfOtherLayouts)
+{
+  for (const bool is_source : {true, false}) {
+    const Eigen::Matrix3Xd xyz = is_source ? sourcePoints() : roomPoints(kPoints, 2);
+    io::Cloud cloud = cloudOf(xyz,
+                              ScalarType::Float32,
+                              {{"intensity", ScalarType::Float32, 1, 0},
+                               {"ring", ScalarType::Float32, 1, 0}});
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      io::storeValue(cloud.point(i), cloud.fields[4], static_cast<double>(i % 32));
+    write(is_source ? "s.pcd.bin" : "t.bin", {cloud.data.begin(), cloud.data.end()});
+  }
+  for (const char* option : {"", " --bin-fields 5"}) {
+    const ProgramRun run =
+        align(std::string("s.pcd.bin t.bin aligned.pcd --json -") + option);
+    ASSERT_EQ(run.status, 0) << run.err;
+    expectTruth(poseOf(run.json()));
+    EXPECT_NE(io::readCloud(path("aligned.pcd")).find("ring"), nullptr);
+  }
+}
+
 TEST_F(CliTest, pointsThatAreNotFiniteAreSkippedAndKept)
 {
   Eigen::Matrix3Xd xyz = sourcePoints();

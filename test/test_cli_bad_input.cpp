@@ -76,7 +76,7 @@ TEST_F(CliBadInput, cloudsThatAreNone)
       {"empty.pcd", "empty.pcd: is empty"},
       {"text.pcd", "not a PCD header"},
       {"text.ply", "not a PLY file"},
-      {"text.bin", "not a KITTI scan"},
+      {"text.bin", "is text"},
       {"cloud.xyz", "not a point cloud that can be read"},
       {"half.pcd", "cut off"},
       {"header.pcd", "cut off"},
@@ -132,6 +132,7 @@ TEST_F(CliBadInput, commandLinesThatMakeNoSense)
   expectError(pair + "--min-confidence 2", 2, "--min-confidence = 2");
   expectError(pair + "--inlier-distance -1", 2, "--inlier-distance");
   expectError(pair + "--threads -1", 2, "--threads");
+  expectError(pair + "--bin-fields 2", 2, "--bin-fields");
   expectError(pair + "--neighbors 0", 2, "--neighbors");
   expectError(pair + "--features only_one.pcd", 2, "expected two files");
   expectError(pair + "--features a,b,c", 2, "expected two files");

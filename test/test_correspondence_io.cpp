@@ -62,6 +62,41 @@ TEST(NumberTable, saysWhereARowIsWrong)
   EXPECT_EQ(complaint(""), "holds no rows of numbers");
 }
 
+TEST(NumberTable, refusesDecimalCommas)
+{
+  const auto complaint = [](const std::string& text) {
+    return complaintOf([&] { parseNumberTable(text); });
+  };
+  for (const char* row : {"1,5 2,5 3,5",
+                          "1,5\t2,5\t3,5 # three numbers, read as six columns",
+                          "1,5;2,5;3,5",
+                          "1,5; 2,5; 3,5",
+                          "1,5, 2,5, 3,5",
+                          "0 0 -1,25e-3 4",
+                          "1 0 0 4,5"})
+    EXPECT_NE(complaint(std::string("0 0 0\n") + row)
+                  .find("' has a decimal comma: write decimal points"),
+              std::string::npos)
+        << row << ": " << complaint(row);
+  EXPECT_EQ(complaint("1 2 3\n1,5 2 3\n").substr(0, 13), "line 2: '1,5'");
+}
+
+TEST(NumberTable, commasThatSeparateMayStandAnyhow)
+{
+  for (const char* row : {"1,2,3,4,5,6",
+                          "1, 2, 3, 4, 5, 6",
+                          "1 ,2 ,3 , 4,  5\t,6",
+                          "1,2,3 4,5,6",
+                          "1.0,2.0 3.0,4.0 5.0,6.0",
+                          "1,2,3,4,5,6,",
+                          " 1,2,3,4,5,6 # 1,5 2,5"}) {
+    const NumberTable table = parseNumberTable(row);
+    ASSERT_EQ(table.columns, 6u) << row;
+    EXPECT_EQ(table.row(0)[5], 6) << row;
+  }
+  EXPECT_EQ(parseNumberTable("7,12\n3,8\n").columns, 2u) << "index pairs";
+}
+
 TEST(Correspondences, ofSixColumns)
 {
   const NumberTable table = parseNumberTable("1 2 3 4 5 6\n7 8 9 10 11 12\n");
@@ -145,6 +180,7 @@ TEST(Transform, refusesWhatIsNotRigid)
                            "2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n",
                            "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n",
                            "1 0 0 nan\n0 1 0 0\n0 0 1 0\n0 0 0 1\n",
+                           "1 0 0 0,5\n0 1 0 0\n0 0 1 0\n",
                            "1 0 0 0\n0 1 0 0\n0 0 1 0\n1 2 3 4\n"})
     EXPECT_THROW(parseTransform(text), InputError) << text;
 }

@@ -157,6 +157,7 @@ TEST_F(EvaluateKitti, pairsAreThoseOfTheLiterature)
   options_.sequences = {8};
   const DataSet data = open();
   ASSERT_EQ(data.pairs.size(), 2u);
+  EXPECT_EQ(data.bin_fields, 4u) << "is not left to what the values tell";
   EXPECT_EQ(data.pairs[0].source, "sequences/08/velodyne/000000.bin");
   EXPECT_EQ(data.pairs[0].target, "sequences/08/velodyne/000002.bin");
   EXPECT_EQ(data.pairs[1].source, "sequences/08/velodyne/000003.bin");

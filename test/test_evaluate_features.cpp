@@ -112,6 +112,24 @@ TEST_F(EvaluateFeatures, anotherLeafIsAnotherKey)
   EXPECT_LT(coarser->scan.size(), computed->scan.size());
 }
 
+TEST_F(EvaluateFeatures, anotherWayToReadRawFilesIsAnotherKey)
+{
+  const io::Cloud cloud = io::readCloud(path("room/cloud_bin_0.pcd"));
+  ASSERT_EQ(cloud.point_size, 3 * sizeof(float));
+  // So many that they can be read as rows of four, too.
+  const std::size_t size = cloud.size() / 4 * 4 * cloud.point_size;
+  write("raw.bin", {cloud.data.data(), cloud.data.data() + size});
+  const auto read = [&](std::size_t bin_fields) {
+    return FeatureStore(path(), LEAF, 2, path("cache"), Descriptors::Native, bin_fields)
+        .get("raw.bin");
+  };
+  const auto right = read(3);
+  const auto wrong = read(4);
+  EXPECT_EQ(cached().size(), 2u);
+  EXPECT_NE(right->scan.size(), wrong->scan.size());
+  expectSame(*right, *read(3));
+}
+
 TEST_F(EvaluateFeatures, damagedFilesAreComputedAgain)
 {
   const auto computed = describe();

@@ -17,21 +17,23 @@ namespace {
 using io::InputError;
 
 io::Cloud
-readCloud(const std::string& path, const Progress& progress)
+readCloud(const std::string& path, std::size_t bin_fields, const Progress& progress)
 {
-  io::Cloud cloud = io::readCloud(path);
+  io::Cloud cloud = io::readCloud(path, bin_fields);
   for (const std::string& note : cloud.notes)
     progress.note(path + ": " + note);
   return cloud;
 }
 
 InputCloud
-readInputCloud(const std::string& path, const Progress& progress)
+readInputCloud(const std::string& path,
+               const Options& options,
+               const Progress& progress)
 {
   progress.say("reading " + path);
   InputCloud input;
   input.path = path;
-  input.cloud = readCloud(path, progress);
+  input.cloud = readCloud(path, options.bin_fields, progress);
   try {
     input.xyz = io::coordinates(input.cloud);
   }
@@ -110,7 +112,7 @@ descriptorField(const io::Cloud& cloud)
 InputFeatures
 readFeatures(const std::string& path, const InputCloud& input, const Progress& progress)
 {
-  const io::Cloud cloud = readCloud(path, progress);
+  const io::Cloud cloud = readCloud(path, 0, progress);
   const io::Field* field = descriptorField(cloud);
   if (field == nullptr)
     throw InputError(path +
@@ -145,9 +147,9 @@ readInputs(const Options& options, const Progress& progress)
   if (!options.guess.empty())
     inputs.guess = io::parseFile(options.guess, io::parseTransform);
   if (!options.source.empty())
-    inputs.source = readInputCloud(options.source, progress);
+    inputs.source = readInputCloud(options.source, options, progress);
   if (!options.target.empty())
-    inputs.target = readInputCloud(options.target, progress);
+    inputs.target = readInputCloud(options.target, options, progress);
   if (!options.correspondences.empty()) {
     inputs.correspondences = readCorrespondences(options.correspondences, inputs);
     return inputs;

@@ -3,6 +3,8 @@
 
 #include "option_groups.h"
 
+#include "../io/raw_bin.h"
+
 #include <sstream>
 
 namespace pcl_flashreg::align {
@@ -83,6 +85,14 @@ addInputs(CLI::App& app, Options& options, Words& words)
          options.guess,
          wrapped("4 x 4 matrix, a pose that is tried like any other hypothesis"))
       ->type_name("FILE")
+      ->group("Input");
+  app.add_option(
+         "--bin-fields",
+         options.bin_fields,
+         wrapped("How many float32 a row of a raw .bin file has, x y z first: 4 "
+                 "in KITTI's, 5 in nuScenes' (default: told from the values)"))
+      ->type_name("N")
+      ->check(CLI::Range(std::size_t{3}, io::kMaxRawFields).description(""))
       ->group("Input");
 }
 

@@ -35,7 +35,8 @@ Examples:
   pcl_flashreg_align src.pcd tgt.pcd out.pcd --correspondences src.txt,tgt.txt
       from correspondences; the clouds are there for the aligned output
 
-Clouds: .pcd, .ply (vertices), KITTI .bin (float32 x y z intensity). The aligned cloud
+Clouds: .pcd, .ply (vertices; the camera is the VIEWPOINT), raw .bin (rows of float32, as
+KITTI's x y z intensity, nuScenes' x y z intensity ring, and others). The aligned cloud
 keeps all fields of the source, and has the VIEWPOINT of the target, whose frame it is in.
 
 Exit status: 0 a pose was found and is trusted; 1 no trusted pose; 2 wrong usage;

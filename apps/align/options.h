@@ -30,6 +30,8 @@ struct Options {
   /** \brief Where no descriptors are given: by PCL instead of by this project. */
   bool pcl_features = false;
   std::string guess;
+  /** \brief float32 values in a row of raw .bin files; 0 to tell it from the values. */
+  std::size_t bin_fields = 0;
 
   std::string json;
   std::string transform;

@@ -3,6 +3,7 @@
 
 #include "options.h"
 
+#include "../io/raw_bin.h"
 #include "../io/text.h"
 #include "../program/command_line.h"
 #include "methods/registry.h"
@@ -65,6 +66,10 @@ declareData(CLI::App& app, Options& options)
       ->check(CLI::Range(0, 21))
       ->delimiter(',')
       ->capture_default_str();
+  app.add_option("--bin-fields",
+                 options.data_options.bin_fields,
+                 "float32 values in a row of raw .bin files; default: told from them")
+      ->check(CLI::Range(std::size_t{3}, io::kMaxRawFields).description(""));
   app.add_option("--every", options.every, "Only every n-th pair")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

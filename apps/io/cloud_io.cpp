@@ -7,9 +7,7 @@
 #include "file.h"
 #include "pcd.h"
 #include "ply.h"
-
-#include <cmath>
-#include <cstring>
+#include "raw_bin.h"
 
 namespace pcl_flashreg::io {
 namespace {
@@ -17,22 +15,38 @@ namespace {
 constexpr const char* kPositionNames[] = {"x", "y", "z"};
 constexpr const char* kNormalNames[] = {"normal_x", "normal_y", "normal_z"};
 
-Cloud
-parseCloud(const std::string& extension, const std::string& bytes)
+bool
+startsWith(const std::string& bytes, const char* beginning)
 {
+  return bytes.rfind(beginning, 0) == 0;
+}
+
+/** \brief The blank tells a PLY file from a float32 that begins with the same bytes. */
+bool
+beginsAsPly(const std::string& bytes)
+{
+  return startsWith(bytes, "ply\n") || startsWith(bytes, "ply\r") ||
+         startsWith(bytes, "ply ");
+}
+
+Cloud
+parseCloud(const std::string& extension,
+           const std::string& bytes,
+           std::size_t raw_row_length)
+{
+  if (beginsAsPly(bytes))
+    return parsePly(bytes);
+  if (startsWith(bytes, "# .PCD") || startsWith(bytes, "VERSION"))
+    return parsePcd(bytes);
   if (extension == ".pcd")
     return parsePcd(bytes);
   if (extension == ".ply")
     return parsePly(bytes);
   if (extension == ".bin")
-    return parseKittiBin(bytes);
-  if (bytes.compare(0, 3, "ply") == 0)
-    return parsePly(bytes);
-  if (bytes.compare(0, 6, "# .PCD") == 0 || bytes.compare(0, 7, "VERSION") == 0)
-    return parsePcd(bytes);
+    return parseRawBin(bytes, raw_row_length);
   throw InputError(
-      "is not a point cloud that can be read: expected .pcd, .ply or KITTI "
-      ".bin");
+      "is not a point cloud that can be read: expected .pcd, .ply or a raw "
+      ".bin (KITTI's, nuScenes')");
 }
 
 /** \brief Changes the type of the position fields for which choose() says another one.
@@ -77,10 +91,10 @@ mapVectors(Cloud& cloud, const char* const (&names)[3], Function&& function)
 } // namespace
 
 Cloud
-readCloud(const std::string& path)
+readCloud(const std::string& path, std::size_t raw_row_length)
 {
   Cloud cloud = parseFile(path, [&](const std::string& bytes) {
-    return parseCloud(extensionOf(path), bytes);
+    return parseCloud(extensionOf(path), bytes, raw_row_length);
   });
   if (cloud.size() == 0)
     throw InputError(path + ": holds no points");
@@ -111,29 +125,6 @@ writeCloud(const std::string& path, const Cloud& cloud)
     throw InputError(path + ": cannot be written: " + error.what());
   }
   writeFile(path, bytes);
-}
-
-Cloud
-parseKittiBin(std::string_view bytes)
-{
-  Cloud cloud;
-  for (const char* name : {"x", "y", "z", "intensity"})
-    cloud.addField(name, ScalarType::Float32);
-  if (bytes.size() % cloud.point_size != 0)
-    throw InputError(
-        "is not a KITTI scan, or cut off: its size is no multiple of 16 bytes "
-        "(float32 x y z intensity)");
-  cloud.width = bytes.size() / cloud.point_size;
-  cloud.data.assign(bytes.begin(), bytes.end());
-  // The format has no header. No laser sees further than this, while arbitrary bytes
-  // make numbers of any size.
-  constexpr double farthest = 1e5;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (std::abs(loadValue(cloud.point(i), cloud.fields[k])) > farthest)
-        throw InputError("is not a KITTI scan: point " + std::to_string(i) +
-                         " lies more than 100 km away");
-  return cloud;
 }
 
 void

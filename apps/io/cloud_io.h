@@ -7,18 +7,20 @@
 
 #include <pcl_flashreg/result.h>
 
+#include <cstddef>
 #include <string>
-#include <string_view>
 
 namespace pcl_flashreg::io {
 
-/** \brief Reads a .pcd, .ply or KITTI .bin file.
+/** \brief Reads a PCD or PLY file, or a raw scan (KITTI's, nuScenes' ...).
  *
- * A file of another name is recognised by its first bytes.
+ * PCD and PLY are recognised by their first bytes, whatever the file's name; the
+ * extension decides where these say nothing.
+ * \param[in] raw_row_length values in a row of a raw scan; 0 to tell it from the values
  * \throws InputError if it cannot be read, or holds no points
  */
 Cloud
-readCloud(const std::string& path);
+readCloud(const std::string& path, std::size_t raw_row_length = 0);
 
 /** \brief Whether the path's extension stands for a format that readCloud() knows. */
 bool
@@ -34,12 +36,6 @@ isWritableCloudPath(const std::string& path);
  */
 void
 writeCloud(const std::string& path, const Cloud& cloud);
-
-/** \brief Reads a KITTI scan: float32 x y z intensity, and nothing else.
- * \throws InputError if the bytes cannot be that
- */
-Cloud
-parseKittiBin(std::string_view bytes);
 
 /** \brief Moves the points, and turns the normals, into another frame. Fields keep
  * their types, except that integer coordinates become floating point. */

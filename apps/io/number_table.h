@@ -31,7 +31,8 @@ struct NumberTable {
 };
 
 /** \brief Reads rows of numbers, separated by blanks or commas. Empty lines, and what
- * follows a '#', are left out. "nan" and "inf" are numbers.
+ * follows a '#', are left out. "nan" and "inf" are numbers. Decimal commas are refused:
+ * in "1,5 2,5" a comma cannot separate, since blanks do.
  * \throws InputError with the number of the line, if a word is no number or a row has
  * another length than the first; and if there is no row
  */

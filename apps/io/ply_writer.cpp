@@ -3,6 +3,7 @@
 
 #include "error.h"
 #include "ply.h"
+#include "ply_camera.h"
 
 #include <locale>
 #include <sstream>
@@ -54,9 +55,11 @@ formatPly(const Cloud& cloud)
         header << '_' << k;
       header << '\n';
     }
-  header << "end_header\n";
+  const PlyCamera camera = cameraOf(cloud);
+  header << camera.header << "end_header\n";
   std::string bytes = header.str();
   bytes.append(reinterpret_cast<const char*>(named.data.data()), named.data.size());
+  bytes += camera.row;
   return bytes;
 }
 

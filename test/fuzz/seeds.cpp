@@ -79,14 +79,22 @@ bytesOf(const std::vector<float>& values)
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
 }
 
-std::string
-kittiSeed()
+/** \brief Rows of four and of five, and values that tell nothing. */
+std::vector<std::string>
+rawBinSeeds()
 {
   made::Random random(2);
-  std::vector<float> values;
-  for (int i = 0; i < 400; ++i)
-    values.push_back(static_cast<float>(random.uniform(-80, 80)));
-  return bytesOf(values);
+  std::vector<float> kitti, nuscenes, noise;
+  for (int i = 0; i < 400; ++i) {
+    const auto x = static_cast<float>(random.uniform(-80, 80));
+    const auto y = static_cast<float>(random.uniform(-20, 20));
+    const auto z = static_cast<float>(random.uniform(-2, 3));
+    const auto gray = static_cast<float>(i * 7 % 256);
+    kitti.insert(kitti.end(), {x, y, z, gray / 255});
+    nuscenes.insert(nuscenes.end(), {x, y, z, gray, static_cast<float>(i % 32)});
+    noise.push_back(x);
+  }
+  return {bytesOf(kitti), bytesOf(nuscenes), bytesOf(noise)};
 }
 
 /** \brief Without their checksum, which the target puts under what is left of them. */
@@ -195,7 +203,7 @@ allTargets()
   return {
       {"pcd", readPcd, pcdSeeds()},
       {"ply", readPly, plySeeds()},
-      {"kitti_bin", readKittiBin, {kittiSeed()}},
+      {"raw_bin", readRawBin, rawBinSeeds()},
       {"correspondences",
        readCorrespondences,
        {"# c\n1 2 3 4 5 6\n1e3 -2 +3 nan 5 6\n", "0 1\n99 5\n", "1,2,3\n4 5 6 # x\n"}},

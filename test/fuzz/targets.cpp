@@ -8,6 +8,7 @@
 #include "io/error.h"
 #include "io/pcd.h"
 #include "io/ply.h"
+#include "io/raw_bin.h"
 #include "io/transform_io.h"
 #include "support/checksum.h"
 
@@ -105,9 +106,10 @@ readPly(std::string_view bytes)
 }
 
 void
-readKittiBin(std::string_view bytes)
+readRawBin(std::string_view bytes)
 {
-  readCloudWith(io::parseKittiBin, bytes);
+  readCloudWith([](std::string_view raw) { return io::parseRawBin(raw); }, bytes);
+  readCloudWith([](std::string_view raw) { return io::parseRawBin(raw, 5); }, bytes);
 }
 
 void

@@ -21,7 +21,7 @@ void
 readPly(std::string_view bytes);
 
 void
-readKittiBin(std::string_view bytes);
+readRawBin(std::string_view bytes);
 
 /** \brief Correspondences in all their forms. */
 void

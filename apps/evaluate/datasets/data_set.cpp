@@ -50,6 +50,8 @@ openDataSet(const std::string& path, const DataSetOptions& options)
   }
   if (data.root.empty())
     data.root = ".";
+  if (options.bin_fields != 0)
+    data.bin_fields = options.bin_fields;
   return data;
 }
 

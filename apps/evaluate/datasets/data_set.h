@@ -5,6 +5,7 @@
 
 #include "pair.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct DataSet {
   std::vector<Pair> pairs;
   double leaf = 0.05;
   Criterion criterion;
+  /** \brief float32 values in a row of raw .bin files; 0 to tell it from the values. */
+  std::size_t bin_fields = 0;
 };
 
 /** \brief What a layout may need to be told. */
@@ -34,6 +37,8 @@ struct DataSetOptions {
   std::string root;
   /** \brief For KITTI: which sequences. */
   std::vector<int> sequences = {8, 9, 10};
+  /** \brief What DataSet::bin_fields is to be; 0 for what the layout says. */
+  std::size_t bin_fields = 0;
 };
 
 /** \brief Reads a list of pairs, or a folder in one of the layouts that the headers of

@@ -124,6 +124,7 @@ readKitti(const std::string& root, const std::vector<int>& sequences)
   data.root = root;
   data.leaf = 0.3;
   data.criterion = {5, 0.6};
+  data.bin_fields = 4;
   for (const int sequence : sequences)
     appendSequence(data, static_cast<std::size_t>(sequence));
   return data;

@@ -45,8 +45,11 @@ unpack(std::string_view bytes)
 
 } // namespace
 
-FeatureCache::FeatureCache(std::string folder, double leaf, Descriptors descriptors)
-    : folder_(std::move(folder))
+FeatureCache::FeatureCache(std::string folder,
+                           double leaf,
+                           Descriptors descriptors,
+                           std::size_t bin_fields)
+    : folder_(std::move(folder)), bin_fields_(bin_fields)
 {
   std::error_code error;
   fs::create_directories(folder_, error);
@@ -62,7 +65,9 @@ std::string
 FeatureCache::keyOf(const std::string& cloud_path, ScanContent content) const
 {
   const char* kind = content == ScanContent::Surface ? ".surface" : ".fpfh";
-  return toHex(hashOf(io::readFile(cloud_path))) + "-" + settings_ + kind;
+  const bool raw = io::extensionOf(cloud_path) == ".bin";
+  return toHex(hashOf(io::readFile(cloud_path))) + "-" + settings_ +
+         (raw ? "-" + std::to_string(bin_fields_) : "") + kind;
 }
 
 std::optional<StoredScan>

@@ -6,6 +6,7 @@
 #include "descriptors.h"
 #include "stored_scan.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -21,8 +22,12 @@ namespace pcl_flashreg::evaluate {
  */
 class FeatureCache {
 public:
-  /** \throws io::InputError if the folder is not there and cannot be made */
-  FeatureCache(std::string folder, double leaf, Descriptors descriptors);
+  /** \param[in] bin_fields how raw .bin files are read
+   * \throws io::InputError if the folder is not there and cannot be made */
+  FeatureCache(std::string folder,
+               double leaf,
+               Descriptors descriptors,
+               std::size_t bin_fields);
 
   /** \brief Where the features of a cloud's file belong.
    * \throws io::InputError if the cloud cannot be read
@@ -41,6 +46,7 @@ public:
 private:
   std::string folder_;
   std::string settings_;
+  std::size_t bin_fields_;
 };
 
 } // namespace pcl_flashreg::evaluate

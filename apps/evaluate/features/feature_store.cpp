@@ -15,14 +15,16 @@ FeatureStore::FeatureStore(std::string root,
                            double leaf,
                            unsigned threads,
                            const std::string& cache_folder,
-                           Descriptors descriptors)
+                           Descriptors descriptors,
+                           std::size_t bin_fields)
     : root_(std::move(root)),
       leaf_(leaf),
       maker_(BackendKind::Cpu, threads),
-      descriptors_(descriptors)
+      descriptors_(descriptors),
+      bin_fields_(bin_fields)
 {
   if (!cache_folder.empty())
-    cache_.emplace(cache_folder, leaf, descriptors);
+    cache_.emplace(cache_folder, leaf, descriptors, bin_fields);
 }
 
 void
@@ -70,7 +72,7 @@ FeatureStore::describe(const std::string& path, ScanContent content)
     if (const auto cached = cache_->load(key))
       return std::make_shared<StoredScan>(*cached);
   }
-  const io::Cloud file = io::readCloud(path);
+  const io::Cloud file = io::readCloud(path, bin_fields_);
   const Eigen::Matrix3Xd xyz = io::coordinates(file);
   const auto stored = std::make_shared<StoredScan>();
   const detail::Stopwatch stopwatch;

@@ -25,13 +25,15 @@ public:
   using Cloud = std::shared_ptr<const StoredScan>;
 
   /** \param[in] cache_folder keeps features on disk; empty for not at all
+   * \param[in] bin_fields see DataSet
    * \throws io::InputError if the cache's folder cannot be made
    */
   FeatureStore(std::string root,
                double leaf,
                unsigned threads,
                const std::string& cache_folder,
-               Descriptors descriptors = Descriptors::Native);
+               Descriptors descriptors = Descriptors::Native,
+               std::size_t bin_fields = 0);
 
   /** \brief Announces a pair that get() will be called for. */
   void
@@ -62,6 +64,7 @@ private:
   double leaf_;
   PairRegistration maker_;
   Descriptors descriptors_;
+  std::size_t bin_fields_;
   std::optional<FeatureCache> cache_;
   std::map<std::string, std::size_t> uses_;
   std::map<std::pair<std::string, ScanContent>, Cloud> clouds_;

@@ -94,9 +94,11 @@ TruthStore::get(const Pair& pair) const
     if (const auto pose = load(cached))
       return *pose;
   }
-  const RigidTransform refined = refineTruth(io::coordinates(io::readCloud(source)),
-                                             io::coordinates(io::readCloud(target)),
-                                             pair.T_target_source);
+  const auto points = [&](const std::string& path) {
+    return io::coordinates(io::readCloud(path, bin_fields_));
+  };
+  const RigidTransform refined =
+      refineTruth(points(source), points(target), pair.T_target_source);
   if (!cached.empty()) {
     const std::string pose = io::formatTransform(refined);
     io::writeFile(cached, "# " + toHex(hashOf(pose)) + '\n' + pose);

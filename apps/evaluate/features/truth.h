@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <string>
 
 namespace pcl_flashreg::evaluate {
@@ -27,9 +28,12 @@ refineTruth(const Eigen::Matrix3Xd& source,
 /** \brief The true poses of pairs, refined where the data set asks for it. */
 class TruthStore {
 public:
-  /** \param[in] cache_folder keeps refined poses on disk; empty for not at all */
-  TruthStore(std::string root, std::string cache_folder)
-      : root_(std::move(root)), cache_folder_(std::move(cache_folder))
+  /** \param[in] cache_folder keeps refined poses on disk; empty for not at all
+   * \param[in] bin_fields see DataSet */
+  TruthStore(std::string root, std::string cache_folder, std::size_t bin_fields = 0)
+      : root_(std::move(root)),
+        cache_folder_(std::move(cache_folder)),
+        bin_fields_(bin_fields)
   {
   }
 
@@ -40,6 +44,7 @@ public:
 private:
   std::string root_;
   std::string cache_folder_;
+  std::size_t bin_fields_;
 };
 
 } // namespace pcl_flashreg::evaluate

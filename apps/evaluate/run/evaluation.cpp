@@ -144,9 +144,10 @@ evaluatePairs(const Options& options,
                      job.data.leaf,
                      options.threads,
                      options.cache,
-                     options.descriptors);
+                     options.descriptors,
+                     job.data.bin_fields);
   PairRegistration registration(BackendKind::Cpu, options.threads);
-  const TruthStore truths(job.data.root, options.cache);
+  const TruthStore truths(job.data.root, options.cache, job.data.bin_fields);
   const auto pairAt = [&](std::size_t position) -> const Pair& {
     return job.data.pairs[job.pairs[position]];
   };

@@ -78,6 +78,8 @@ makeConfig(const Options& options, const Job& job)
   config["score"] = options.score_name;
   if (options.descriptors != Descriptors::Native)
     config["features"] = options.descriptors_name;
+  if (options.data_options.bin_fields != 0)
+    config["bin_fields"] = options.data_options.bin_fields;
   config["max_rotation_deg"] = job.data.criterion.max_rotation;
   config["max_translation"] = job.data.criterion.max_translation;
   config["front_end"] = frontEndFingerprint();
