@@ -8,24 +8,16 @@
 #include "../io/scan_input.h"
 #include "modules.h"
 
+#include <pcl_flashreg/impl/number_text.hpp>
 #include <pcl_flashreg/impl/stopwatch.hpp>
 #include <pcl_flashreg/resolution.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace pcl_flashreg::align {
 namespace {
 
 using io::InputError;
-
-std::string
-shortNumber(double value)
-{
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 /** \brief A cloud as a registration takes it. */
 ScanInput<double>
@@ -160,7 +152,7 @@ private:
       return progress_.say("estimating the resolution");
     case PairStep::SourceScan:
       return progress_.say("describing the source, voxels of " +
-                           shortNumber(at.resolution));
+                           detail::toText(at.resolution));
     case PairStep::TargetScan:
       return progress_.say("describing the target");
     case PairStep::Matching:
@@ -189,7 +181,7 @@ private:
                                 std::to_string(NEEDED);
     if (options_.leaf)
       failLeaf(cloud, problem);
-    throw InputError(cloud.path + ": the voxel grid of " + shortNumber(resolution) +
+    throw InputError(cloud.path + ": the voxel grid of " + detail::toText(resolution) +
                      " " + problem +
                      " (--leaf sets another; are both clouds in the same unit?)");
   }
@@ -211,8 +203,8 @@ private:
   failLeaf(const InputCloud& cloud, const std::string& problem) const
   {
     const double better = estimateResolution(*io::toPclCloud(cloud.xyz).points);
-    throw UsageError("--leaf " + shortNumber(*options_.leaf) + ": " + problem +
-                     "; about " + shortNumber(better) + " would suit " + cloud.path);
+    throw UsageError("--leaf " + detail::toText(*options_.leaf) + ": " + problem +
+                     "; about " + detail::toText(better) + " would suit " + cloud.path);
   }
 
   /** \brief What the core can't work with, in terms of what was given here. */
@@ -244,7 +236,7 @@ askForTheUnit(const PairResult& result, const Progress& progress)
   const double source = *result.source_estimate, target = *result.target_estimate;
   if (std::max(source, target) > FAR_APART * std::min(source, target))
     progress.note("the source by itself would be seen at a resolution of " +
-                  shortNumber(source) + ", the target at " + shortNumber(target) +
+                  detail::toText(source) + ", the target at " + detail::toText(target) +
                   ": are both in the same unit?");
 }
 

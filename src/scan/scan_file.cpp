@@ -7,6 +7,8 @@
 #include "scan/scan_data.h"
 #include "support/checksum.h"
 
+#include <pcl_flashreg/impl/number_text.hpp>
+
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +19,8 @@
 #include <sstream>
 #include <system_error>
 #include <thread>
+
+#include <unistd.h>
 
 namespace pcl_flashreg {
 namespace {
@@ -210,21 +214,22 @@ void
 Scan::save(const std::string& path) const
 {
   const std::string bytes = serialize();
-  std::ostringstream temporary;
-  temporary << path << ".part" << std::this_thread::get_id();
+  // Of this thread of this process: a fork() leaves the number of the thread as it is.
+  const std::string temporary = path + ".part" + std::to_string(::getpid()) + '.' +
+                                detail::toText(std::this_thread::get_id());
   const auto fail = [&](const std::string& reason) {
-    std::remove(temporary.str().c_str());
+    std::remove(temporary.c_str());
     throw ScanFileError(path + ": cannot be written: " + reason);
   };
   {
-    std::ofstream file(temporary.str(), std::ios::binary);
+    std::ofstream file(temporary, std::ios::binary);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     file.close();
     if (!file)
       fail(reasonOf(errno));
   }
   std::error_code error;
-  std::filesystem::rename(temporary.str(), path, error);
+  std::filesystem::rename(temporary, path, error);
   if (error)
     fail(error.message());
 }
