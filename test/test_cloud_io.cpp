@@ -8,6 +8,7 @@
 #include "io/pcl_cloud.h"
 #include "io/ply.h"
 #include "io/text.h"
+#include "support/foreign_locale.h"
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
@@ -168,7 +169,7 @@ TEST(Cloud, storesTheNearestValue)
   EXPECT_TRUE(std::isnan(stored(ScalarType::Float32, std::nan(""))));
 }
 
-TEST(Cloud, transformMovesPointsAndTurnsNormals)
+TEST(Cloud, transformMovesPointsAndViewpointAndTurnsNormals)
 {
   Cloud cloud;
   for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z"})
@@ -182,7 +183,13 @@ TEST(Cloud, transformMovesPointsAndTurnsNormals)
   RigidTransform T;
   T.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   T.translation << 10, 20, 30;
+  cloud.viewpoint = {1, 2, 3, 0.6, 0.8, 0, 0};
   transformCloud(cloud, T);
+  const double half = std::sqrt(0.5);
+  const double viewpoint[] = {
+      8, 21, 33, 0.6 * half, 0.8 * half, 0.8 * half, 0.6 * half};
+  for (std::size_t i = 0; i < 7; ++i)
+    EXPECT_NEAR(cloud.viewpoint[i], viewpoint[i], 1e-12) << i;
   const double expected[] = {8, 21, 33, 0, 1, 0, 77};
   for (std::size_t f = 0; f < 7; ++f)
     EXPECT_EQ(loadValue(cloud.point(0), cloud.fields[f]), expected[f]);
@@ -236,6 +243,29 @@ TEST(Files, whatTheyAreIsToldByTheirFirstBytes)
     EXPECT_EQ(readCloud(path).data, cloud.data) << name;
   }
   fs::remove_all(folder);
+}
+
+TEST(Files, areTheSameInEveryLocale)
+{
+  Cloud cloud;
+  for (const char* name : {"x", "y", "z"})
+    cloud.addField(name, ScalarType::Float32);
+  cloud.width = 12345;
+  cloud.data.resize(cloud.width * cloud.point_size);
+  cloud.viewpoint = {1234.5, -0.25, 0, 1, 0, 0, 0};
+  const std::string pcd = formatPcd(cloud), ply = formatPly(cloud);
+  const std::string ascii =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\n"
+      "HEIGHT 1\nVIEWPOINT 0.5 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1234.5 -0.25 3\n";
+  const test::ForeignLocale abroad;
+  EXPECT_EQ(formatPcd(cloud), pcd);
+  EXPECT_EQ(formatPly(cloud), ply);
+  EXPECT_EQ(parsePcd(pcd).viewpoint, cloud.viewpoint);
+  EXPECT_EQ(parsePly(ply).size(), cloud.size());
+  const Cloud read = parsePcd(ascii);
+  EXPECT_EQ(read.viewpoint[0], 0.5);
+  EXPECT_EQ(coordinates(read).col(0), Eigen::Vector3d(1234.5, -0.25, 3));
+  EXPECT_EQ(extensionOf("SCAN.BIN"), ".bin");
 }
 
 TEST(Files, aFailedWriteLosesNothing)

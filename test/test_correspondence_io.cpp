@@ -4,6 +4,7 @@
 #include "io/correspondence_io.h"
 #include "io/error.h"
 #include "io/transform_io.h"
+#include "support/foreign_locale.h"
 #include "support/made_correspondences.h"
 
 #include <gtest/gtest.h>
@@ -127,6 +128,27 @@ TEST(Correspondences, ofIndexPairs)
   EXPECT_NE(complaint("0.5 0\n"), "");
   EXPECT_NE(complaint("nan 0\n"), "");
   EXPECT_NE(complaint("1e300 0\n"), "");
+}
+
+TEST(Correspondences, areTheSameInEveryLocale)
+{
+  RigidTransform T;
+  T.translation << 1234.5, -0.25, 1e-7;
+  const std::string text = formatTransform(T);
+  const test::ForeignLocale abroad;
+  EXPECT_EQ(formatTransform(T), text);
+  EXPECT_EQ(parseTransform(text).translation, T.translation);
+  const NumberTable table = parseNumberTable("1234.5 2\n12345 0\n");
+  EXPECT_EQ(table.row(0)[0], 1234.5);
+  EXPECT_EQ(table.row(1)[0], 12345);
+  const Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, 2);
+  const auto complaint = [&](const std::string& pairs) {
+    return complaintOf([&] { fromIndices(parseNumberTable(pairs), points, points); });
+  };
+  EXPECT_EQ(complaint("1234.5 0\n"),
+            "line 1: 1234.5 is no index of a source point (0 to 1)");
+  EXPECT_EQ(complaint("0 12345\n"),
+            "line 1: 12345 is no index of a target point (0 to 1)");
 }
 
 TEST(Correspondences, ofTwoFiles)

@@ -9,6 +9,7 @@
 #include "evaluate/run/progress.h"
 #include "evaluate/run/split.h"
 #include "evaluate_support.h"
+#include "support/foreign_locale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -295,6 +296,20 @@ TEST_F(EvaluateResults, tablesNameEveryGroupAndMethod)
   for (const char* text :
        {"Rooms, large / kitchen: 2 pairs", "Rooms, large: 3 pairs", "  fast", "  slow"})
     EXPECT_NE(table.find(text), std::string::npos) << text << '\n' << table;
+}
+
+TEST_F(EvaluateResults, areTheSameInEveryLocale)
+{
+  Results some = results(0, 3);
+  for (Record& record : some.records)
+    record.times.estimation += 1234.5;
+  writeResults(path("home.csv"), some);
+  const std::string json = formatJson(some.config, summarize(some));
+  const test::ForeignLocale abroad;
+  writeResults(path("abroad.csv"), readResults(path("home.csv")));
+  EXPECT_EQ(read("abroad.csv"), read("home.csv"));
+  EXPECT_EQ(read("abroad.times.csv"), read("home.times.csv"));
+  EXPECT_EQ(formatJson(some.config, summarize(some)), json);
 }
 
 TEST(EvaluateProgress, tellsRateAndTimeLeft)

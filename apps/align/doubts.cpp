@@ -3,7 +3,7 @@
 
 #include "doubts.h"
 
-#include "numbers.h"
+#include <pcl_flashreg/impl/number_text.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -16,8 +16,8 @@ namespace {
 std::string
 vectorOf(const Eigen::Vector3d& v)
 {
-  return "(" + shortNumber(v.x()) + " " + shortNumber(v.y()) + " " +
-         shortNumber(v.z()) + ")";
+  return "(" + detail::toText(v.x()) + " " + detail::toText(v.y()) + " " +
+         detail::toText(v.z()) + ")";
 }
 
 void
@@ -170,8 +170,8 @@ noteUnits(const Inputs& inputs, const PairResult& result, const Progress& progre
   if (std::abs(std::log(resolutions)) > std::log(FAR_APART) ||
       lookLikeTwoUnits(resolutions, extents))
     progress.note("the source by itself would be seen at a resolution of " +
-                  shortNumber(estimates->source) + ", the target at " +
-                  shortNumber(estimates->target) + ": are both in the same unit?");
+                  detail::toText(estimates->source) + ", the target at " +
+                  detail::toText(estimates->target) + ": are both in the same unit?");
 }
 
 } // namespace

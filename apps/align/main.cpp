@@ -41,8 +41,6 @@ alignedCloud(const Inputs& inputs, const RigidTransform& pose, const Progress& p
     io::promoteCoordinates(cloud);
   }
   io::transformCloud(cloud, pose);
-  if (inputs.target)
-    cloud.viewpoint = inputs.target->cloud.viewpoint;
   return cloud;
 }
 

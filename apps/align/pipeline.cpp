@@ -8,12 +8,11 @@
 #include "../io/scan_input.h"
 #include "doubts.h"
 #include "modules.h"
-#include "numbers.h"
 
+#include <pcl_flashreg/impl/number_text.hpp>
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <algorithm>
-#include <sstream>
 
 namespace pcl_flashreg::align {
 namespace {
@@ -153,7 +152,7 @@ private:
       return progress_.say("estimating the resolution");
     case PairStep::SourceScan:
       return progress_.say("describing the source, voxels of " +
-                           shortNumber(at.resolution));
+                           detail::toText(at.resolution));
     case PairStep::TargetScan:
       return progress_.say("describing the target");
     case PairStep::Matching:
@@ -182,7 +181,7 @@ private:
                                 std::to_string(NEEDED);
     if (options_.leaf)
       failLeaf(cloud, problem);
-    throw InputError(cloud.path + ": the voxel grid of " + shortNumber(resolution) +
+    throw InputError(cloud.path + ": the voxel grid of " + detail::toText(resolution) +
                      " " + problem +
                      " (--leaf sets another; are both clouds in the same unit?)");
   }
@@ -205,8 +204,8 @@ private:
   failLeaf(const InputCloud& cloud, const std::string& problem) const
   {
     const double better = resolutionOf(cloud);
-    throw UsageError("--leaf " + shortNumber(*options_.leaf) + ": " + problem +
-                     "; about " + shortNumber(better) + " would suit " + cloud.path);
+    throw UsageError("--leaf " + detail::toText(*options_.leaf) + ": " + problem +
+                     "; about " + detail::toText(better) + " would suit " + cloud.path);
   }
 
   static bool

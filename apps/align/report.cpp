@@ -3,6 +3,8 @@
 
 #include "report.h"
 
+#include <pcl_flashreg/impl/number_text.hpp>
+
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -159,12 +161,9 @@ formatReport(const Options& options, const Outcome& outcome)
             formatPose(outcome.pair.pose.T_target_source);
   text += formatFreeMotions(outcome.pair.pose);
   text += "inliers     " + formatCounts(outcome) + '\n';
-  if (outcome.pair.resolution != 0) {
-    std::ostringstream resolution;
-    resolution << outcome.pair.resolution;
-    text += "resolution  " + resolution.str() +
+  if (outcome.pair.resolution != 0)
+    text += "resolution  " + detail::toText(outcome.pair.resolution) +
             (options.leaf ? "\n" : " (estimated; --leaf sets another)\n");
-  }
   return text + formatTimes(outcome);
 }
 

@@ -135,12 +135,24 @@ transformCloud(Cloud& cloud, const RigidTransform& T_new_old)
       return type;
     return sizeOf(type) <= 2 ? ScalarType::Float32 : ScalarType::Float64;
   });
-  mapVectors(cloud, kPositionNames, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+  const auto moved = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
     return T_new_old.rotation * p + T_new_old.translation;
-  });
+  };
+  mapVectors(cloud, kPositionNames, moved);
   mapVectors(cloud, kNormalNames, [&](const Eigen::Vector3d& n) -> Eigen::Vector3d {
     return T_new_old.rotation * n;
   });
+  auto& [x, y, z, qw, qx, qy, qz] = cloud.viewpoint;
+  const Eigen::Vector3d position = moved({x, y, z});
+  const auto orientation =
+      Eigen::Quaterniond(T_new_old.rotation) * Eigen::Quaterniond(qw, qx, qy, qz);
+  cloud.viewpoint = {position.x(),
+                     position.y(),
+                     position.z(),
+                     orientation.w(),
+                     orientation.x(),
+                     orientation.y(),
+                     orientation.z()};
 }
 
 void

@@ -37,8 +37,8 @@ isWritableCloudPath(const std::string& path);
 void
 writeCloud(const std::string& path, const Cloud& cloud);
 
-/** \brief Moves the points, and turns the normals, into another frame. Fields keep
- * their types, except that integer coordinates become floating point. */
+/** \brief Moves the points and the viewpoint, and turns the normals, into another frame.
+ * Fields keep their types, except that integer coordinates become floating point. */
 void
 transformCloud(Cloud& cloud, const RigidTransform& T_new_old);
 

@@ -5,6 +5,8 @@
 
 #include "error.h"
 
+#include <pcl_flashreg/impl/number_text.hpp>
+
 #include <cmath>
 
 namespace pcl_flashreg::io {
@@ -32,9 +34,9 @@ indexAt(const NumberTable& table,
   if (value >= 0 && value < static_cast<double>(points.cols()) &&
       value == std::floor(value))
     return static_cast<Eigen::Index>(value);
-  std::string number = std::to_string(value);
-  if (std::abs(value) < 1e15 && value == std::floor(value))
-    number = std::to_string(static_cast<long long>(value));
+  const bool is_integer = std::abs(value) < 1e15 && value == std::floor(value);
+  const std::string number = is_integer ? std::to_string(static_cast<long long>(value))
+                                        : detail::toText(value);
   throw InputError("line " + std::to_string(table.lines[row]) + ": " + number +
                    " is no index of a " + (column == 0 ? "source" : "target") +
                    " point (0 to " + std::to_string(points.cols() - 1) + ")");

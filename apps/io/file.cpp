@@ -66,8 +66,10 @@ std::string
 extensionOf(const std::string& path)
 {
   std::string extension = fs::path(path).extension().string();
+  // Not by std::tolower(), which asks the user's language.
   for (char& c : extension)
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (c >= 'A' && c <= 'Z')
+      c = static_cast<char>(c - 'A' + 'a');
   return extension;
 }
 

@@ -49,6 +49,10 @@ struct CorrespondenceView {
  * Deterministic: the same input gives the same result to the last bit, whatever the number
  * of threads, the SIMD variant or the run. An object owns its working memory, so that a
  * second call of the same size allocates next to nothing; use one object per thread.
+ *
+ * On the CPU, an object may also be used and destroyed in the child of a fork() that was
+ * made while no call was running on it; CUDA works in no child of a process that has used
+ * it.
  */
 class PCL_FLASHREG_EXPORT Estimator {
 public:

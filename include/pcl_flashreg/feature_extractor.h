@@ -83,7 +83,7 @@ struct DescribedCloud {
  * same to the last bit on every SIMD variant and number of threads. Memory: 8 bytes a
  * point and about 500 a keypoint, beside the result; kept for the next call.
  *
- * An object is not to be used by two threads at a time.
+ * An object is not to be used by two threads at a time; after a fork(), as Estimator.
  */
 class PCL_FLASHREG_EXPORT FeatureExtractor {
 public:

@@ -50,7 +50,7 @@ struct MutualMatches {
  *
  * The same on every SIMD variant and number of threads. Memory grows with the number of
  * descriptors. Keeps its threads from call to call; an object is not to be used by two
- * threads at a time.
+ * threads at a time; after a fork(), as Estimator.
  */
 class PCL_FLASHREG_EXPORT FeatureMatcher {
 public:

@@ -44,7 +44,8 @@ struct FlashRegistrationTimings {
  * - hasConverged() is Result::converged: getConfidence() reaches
  *   Parameters::min_confidence; and the inlier fraction, where one is set.
  *   getFinalTransformation() is the best pose even if it is not trusted; it is the
- *   identity, and the output a copy of the source, if getStatus() is not Status::Ok.
+ *   identity, and the output a copy of the source, if getStatus() is not Status::Ok;
+ *   where there is nothing to copy, align() leaves the output alone.
  * - align() never throws. What kept it from finding a pose is printed with PCL_ERROR
  *   and kept in getErrorMessage(); the object stays usable.
  * - setInputSource() and setInputTarget() clear the result of the last align() and
@@ -59,8 +60,8 @@ struct FlashRegistrationTimings {
  *   transformation is always from the source as given.
  * - setIndices() selects source points; features are still given for the full cloud.
  *   Points and descriptors that are not finite are skipped, whatever is_dense says.
- * - The output may be the source cloud itself, if no indices are set. Normals of the
- *   output are rotated with it.
+ * - The output may be the source cloud itself, if no indices are set. Its normals, and
+ *   its sensor_origin_ and sensor_orientation_, are the source's, moved with the points.
  * - As with all of PCL: a program with a point type of its own must include
  *   pcl/kdtree/impl/kdtree_flann.hpp or define PCL_NO_PRECOMPILE, and one compiled
  *   with other SIMD flags than PCL's libraries (-mavx2) must define the latter before it
@@ -381,7 +382,7 @@ public:
   }
 
   /** \brief What kept align() from finding a pose, as printed; empty if it found one.
-   */
+   * Before it, which cloud is missing. */
   const std::string&
   getErrorMessage() const
   {
@@ -447,10 +448,24 @@ protected:
   computeTransformation(PointCloudSource& output, const Matrix4& guess) override;
 
 private:
+  /** \brief Which cloud there is none of; empty if there are both. */
+  std::string
+  missingInput() const;
+
+  /** \brief Why the selected source points can't be copied into the output; empty if
+   * they can. */
+  std::string
+  whyNotCopied(const PointCloudSource& output) const;
+
   /** \brief What pcl::Registration::align() does before computeTransformation().
    * \return whether there is anything to compute */
   bool
   prepare(PointCloudSource& output);
+
+  /** \brief Gives the output, which holds the selected points, what is not points of the
+   * source. */
+  void
+  describeOutput(PointCloudSource& output) const;
 
   void
   resetResult();
@@ -489,7 +504,8 @@ private:
   static std::optional<RigidTransform>
   hypothesisFrom(const Matrix4& guess);
 
-  /** \brief Takes over the pose, decides on converged_, transforms the output. */
+  /** \brief Takes over the pose, decides on converged_, transforms the output and its
+   * sensor's pose. */
   void
   applyResult(PointCloudSource& output);
 

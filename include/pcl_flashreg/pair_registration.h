@@ -147,8 +147,8 @@ struct PairResult {
  *
  * Its templates are there for float and double.
  *
- * Deterministic, as Estimator is. An object owns its threads and its memory, so that later
- * calls allocate little; use one object a thread.
+ * Deterministic, as Estimator is, and after a fork() usable as that is. An object owns its
+ * threads and its memory, so that later calls allocate little; use one object a thread.
  */
 class PCL_FLASHREG_EXPORT PairRegistration {
 public:

@@ -4,6 +4,7 @@
 #include <pcl_flashreg/estimator.h>
 
 #include "registration/pose_search.h"
+#include "support/require.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -19,9 +20,10 @@ checkInput(const CloudPairView<Scalar>& clouds)
     if (cloud->size > 0 && (!cloud->xyz || !cloud->normals))
       throw std::invalid_argument("clouds: size is " + std::to_string(cloud->size) +
                                   ", but xyz or normals is null");
-  if (!(clouds.spacing > 0) || !std::isfinite(clouds.spacing))
-    throw std::invalid_argument("clouds: spacing = " + std::to_string(clouds.spacing) +
-                                " is out of range: it must be a finite length > 0");
+  require(clouds.spacing > 0 && std::isfinite(clouds.spacing),
+          "clouds: spacing",
+          clouds.spacing,
+          "it must be a finite length > 0");
 }
 
 template <typename Scalar>

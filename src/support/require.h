@@ -3,7 +3,8 @@
 
 #pragma once
 
-#include <sstream>
+#include <pcl_flashreg/impl/number_text.hpp>
+
 #include <stdexcept>
 #include <string>
 
@@ -14,11 +15,9 @@ template <typename Value>
 void
 require(bool fits, const char* name, Value value, const std::string& range)
 {
-  if (fits)
-    return;
-  std::ostringstream message;
-  message << name << " = " << value << " is out of range: " << range;
-  throw std::invalid_argument(message.str());
+  if (!fits)
+    throw std::invalid_argument(std::string(name) + " = " + detail::toText(value) +
+                                " is out of range: " + range);
 }
 
 } // namespace pcl_flashreg

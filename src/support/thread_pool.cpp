@@ -4,7 +4,15 @@
 #include "support/thread_pool.h"
 
 #include <algorithm>
-#include <system_error>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
 
 namespace pcl_flashreg {
 
@@ -30,14 +38,59 @@ spinUntil(const Condition& condition)
 
 } // namespace
 
-ThreadPool::ThreadPool(unsigned threads)
-    : size_(std::clamp(threads != 0 ? threads : std::thread::hardware_concurrency(),
-                       1u,
-                       MOST_THREADS))
-{
-}
+class ThreadPool::Team {
+public:
+  /** \param[in] size the caller included */
+  explicit Team(std::size_t size) : size_(size)
+  {
+    helpers_.reserve(size - 1);
+  }
+  ~Team();
 
-ThreadPool::~ThreadPool()
+  void
+  run(Call call, const void* task, std::size_t count);
+
+  /** \brief Whether this is a copy that a fork() left in a child: its threads are in
+   * the parent, and a lock that one of them held will never be released. */
+  bool
+  isForked() const
+  {
+    return process_ != ::getpid();
+  }
+
+  /** \brief For a list of teams that are given up. */
+  Team* next_given_up = nullptr;
+
+private:
+  void
+  startHelpers();
+  void
+  help(std::size_t thread);
+  void
+  takeTasks(std::size_t thread) noexcept;
+
+  const std::size_t size_;
+  const ::pid_t process_ = ::getpid();
+  std::vector<std::thread> helpers_;
+
+  // The loop at hand. Set by the caller while no helper is in it; a helper enters and
+  // leaves under the mutex.
+  Call call_ = nullptr;
+  const void* task_ = nullptr;
+  std::size_t count_ = 0;
+  std::atomic<std::size_t> next_{0};
+  std::exception_ptr failure_;
+
+  std::mutex mutex_;
+  std::condition_variable wake_, left_;
+  /** \brief Counts loops, so that a helper sees that there is a new one. */
+  std::atomic<std::uint64_t> loop_{0};
+  bool open_ = false;
+  bool stop_ = false;
+  std::atomic<std::size_t> inside_{0};
+};
+
+ThreadPool::Team::~Team()
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -49,24 +102,23 @@ ThreadPool::~ThreadPool()
     helper.join();
 }
 
-/** \brief With the first loop, so that an object that is never used costs nothing. Where
- * the system gives no more threads, there are fewer helpers. */
+/** \brief Where the system gives no more threads, or no memory for one, there are fewer
+ * helpers. */
 void
-ThreadPool::startHelpers()
+ThreadPool::Team::startHelpers()
 {
-  helpers_.reserve(size_ - 1);
   for (std::size_t thread = 1; thread < size_; ++thread) {
     try {
       helpers_.emplace_back([this, thread] { help(thread); });
     }
-    catch (const std::system_error&) {
+    catch (const std::exception&) {
       return;
     }
   }
 }
 
 void
-ThreadPool::takeTasks(std::size_t thread) noexcept
+ThreadPool::Team::takeTasks(std::size_t thread) noexcept
 {
   for (std::size_t i = next_.fetch_add(1); i < count_; i = next_.fetch_add(1)) {
     try {
@@ -82,7 +134,7 @@ ThreadPool::takeTasks(std::size_t thread) noexcept
 }
 
 void
-ThreadPool::run(Call call, const void* task, std::size_t count)
+ThreadPool::Team::run(Call call, const void* task, std::size_t count)
 {
   if (helpers_.empty())
     startHelpers();
@@ -112,7 +164,7 @@ ThreadPool::run(Call call, const void* task, std::size_t count)
 }
 
 void
-ThreadPool::help(std::size_t thread)
+ThreadPool::Team::help(std::size_t thread)
 {
   std::uint64_t seen = 0;
   for (;;) {
@@ -135,6 +187,44 @@ ThreadPool::help(std::size_t thread)
     }
     left_.notify_one();
   }
+}
+
+ThreadPool::ThreadPool(unsigned threads)
+    : size_(std::clamp(threads != 0 ? threads : std::thread::hardware_concurrency(),
+                       1u,
+                       MOST_THREADS))
+{
+}
+
+ThreadPool::~ThreadPool()
+{
+  leaveForkedTeam();
+}
+
+/** \brief A child gives its copy of the parent's team up: neither can its threads be
+ * joined nor its locks be destroyed. It is not freed, but kept where a leak checker
+ * finds it: once a pool that the parent had used. */
+void
+ThreadPool::leaveForkedTeam()
+{
+  static std::atomic<Team*> given_up{nullptr};
+  if (!team_ || !team_->isForked())
+    return;
+  Team* const team = team_.release();
+  team->next_given_up = given_up.load();
+  while (!given_up.compare_exchange_weak(team->next_given_up, team)) {
+  }
+}
+
+/** \brief Threads are there from the first loop on, so that an object that is never used
+ * costs nothing. */
+void
+ThreadPool::run(Call call, const void* task, std::size_t count)
+{
+  leaveForkedTeam();
+  if (!team_)
+    team_ = std::make_unique<Team>(size_);
+  team_->run(call, task, count);
 }
 
 } // namespace pcl_flashreg

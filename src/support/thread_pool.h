@@ -3,14 +3,8 @@
 
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
 #include <cstddef>
-#include <cstdint>
-#include <exception>
-#include <mutex>
-#include <thread>
-#include <vector>
+#include <memory>
 
 namespace pcl_flashreg {
 
@@ -21,6 +15,9 @@ namespace pcl_flashreg {
  * cores this is what keeps seven short loops from costing seven time slices, which is what
  * they cost with a barrier that every thread of a team has to reach. Helpers sleep between
  * loops.
+ *
+ * After a fork() between two loops, the child may use and destroy its copy, too: it gets
+ * helpers of its own with its first loop.
  */
 class ThreadPool {
 public:
@@ -60,34 +57,16 @@ public:
 
 private:
   using Call = void (*)(const void* task, std::size_t i, std::size_t thread);
+  class Team;
 
   void
   run(Call call, const void* task, std::size_t count);
   void
-  startHelpers();
-  void
-  help(std::size_t thread);
-  void
-  takeTasks(std::size_t thread) noexcept;
+  leaveForkedTeam();
 
   const std::size_t size_;
-  std::vector<std::thread> helpers_;
-
-  // The loop at hand. Set by the caller while no helper is in it; a helper enters and
-  // leaves under the mutex.
-  Call call_ = nullptr;
-  const void* task_ = nullptr;
-  std::size_t count_ = 0;
-  std::atomic<std::size_t> next_{0};
-  std::exception_ptr failure_;
-
-  std::mutex mutex_;
-  std::condition_variable wake_, left_;
-  /** \brief Counts loops, so that a helper sees that there is a new one. */
-  std::atomic<std::uint64_t> loop_{0};
-  bool open_ = false;
-  bool stop_ = false;
-  std::atomic<std::size_t> inside_{0};
+  /** \brief The helpers and what they share with the caller; null until the first loop. */
+  std::unique_ptr<Team> team_;
 };
 
 } // namespace pcl_flashreg

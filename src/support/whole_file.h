@@ -6,6 +6,8 @@
 // Files that are read and written as a whole. In a header, since the library keeps its
 // symbols to itself and the programs do the same.
 
+#include <pcl_flashreg/impl/number_text.hpp>
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,7 +16,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -114,9 +115,8 @@ private:
 inline std::string
 partNameOf(const std::string& path)
 {
-  std::ostringstream name;
-  name << path << ".part" << ::getpid() << '-' << std::this_thread::get_id();
-  return name.str();
+  return path + ".part" + std::to_string(::getpid()) + '-' +
+         detail::toText(std::this_thread::get_id());
 }
 
 /** \brief Puts bytes into a file under another name, which is then renamed. */

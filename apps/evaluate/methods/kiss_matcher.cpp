@@ -8,6 +8,7 @@
 #include "families.h"
 #include "silence.h"
 
+#include <pcl_flashreg/impl/number_text.hpp>
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <kiss_matcher/KISSMatcher.hpp>
@@ -33,7 +34,7 @@ configFor(double leaf)
     return KISSMatcherConfig(static_cast<float>(leaf));
   }
   catch (const std::runtime_error&) {
-    throw std::invalid_argument("leaf = " + std::to_string(leaf) +
+    throw std::invalid_argument("leaf = " + detail::toText(leaf) +
                                 ": must be larger than 0.005");
   }
 }

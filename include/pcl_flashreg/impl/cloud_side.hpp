@@ -15,7 +15,8 @@ namespace pcl_flashreg {
 enum class FrontEnd {
   /** \brief PairRegistration::makeScan() */
   Native,
-  /** \brief computeFpfhWithPcl() */
+  /** \brief computeFpfhWithPcl(): by OpenMP, which GCC's programs can't use in the child
+   * of a fork() if the parent has. */
   Pcl
 };
 

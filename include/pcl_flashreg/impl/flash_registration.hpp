@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl_flashreg/flash_registration.h>
+#include <pcl_flashreg/impl/number_text.hpp>
 #include <pcl_flashreg/impl/packed_features.hpp>
 
 #include <pcl/console/print.h>
@@ -12,7 +13,7 @@
 #include <algorithm>
 #include <exception>
 #include <numeric>
-#include <sstream>
+#include <string>
 #include <type_traits>
 
 namespace pcl_flashreg {
@@ -22,6 +23,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::FlashRegistration()
     : feature_representation_(detail::defaultFeatureRepresentation<FeatureT>())
 {
   reg_name_ = "FlashRegistration";
+  error_message_ = missingInput();
   this->setSearchMethodTarget(
       typename LazyKdTree<PointTarget>::Ptr(new LazyKdTree<PointTarget>));
 }
@@ -31,13 +33,13 @@ void
 FlashRegistration<PointSource, PointTarget, FeatureT>::setInputSource(
     const PointCloudSourceConstPtr& cloud)
 {
-  resetResult();
-  source_side_.reset();
-  known_estimate_.reset();
   if (cloud)
     Base::setInputSource(cloud);
   else
     PCL_ERROR("[pcl::%s::setInputSource] No cloud given!\n", getClassName().c_str());
+  source_side_.reset();
+  known_estimate_.reset();
+  resetResult();
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
@@ -45,13 +47,13 @@ void
 FlashRegistration<PointSource, PointTarget, FeatureT>::setInputTarget(
     const PointCloudTargetConstPtr& cloud)
 {
-  resetResult();
-  target_side_.reset();
-  known_estimate_.reset();
   if (cloud)
     Base::setInputTarget(cloud);
   else
     PCL_ERROR("[pcl::%s::setInputTarget] No cloud given!\n", getClassName().c_str());
+  target_side_.reset();
+  known_estimate_.reset();
+  resetResult();
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
@@ -120,6 +122,10 @@ void
 FlashRegistration<PointSource, PointTarget, FeatureT>::align(PointCloudSource& output,
                                                              const Matrix4& guess)
 {
+  resetResult();
+  const std::string reason = whyNotCopied(output);
+  if (!reason.empty())
+    return fail(reason);
   // PCL hands the tree of the source to a member that wants one of the target's type.
   constexpr bool base_compiles = std::is_convertible_v<
       typename Base::KdTreeReciprocalPtr,
@@ -131,33 +137,50 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::align(PointCloudSource& o
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
+std::string
+FlashRegistration<PointSource, PointTarget, FeatureT>::missingInput() const
+{
+  if (!input_)
+    return "no input source with points was given";
+  return target_ ? "" : "no input target with points was given";
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+std::string
+FlashRegistration<PointSource, PointTarget, FeatureT>::whyNotCopied(
+    const PointCloudSource& output) const
+{
+  if (!input_ || !target_)
+    return missingInput();
+  if (static_cast<const void*>(&output) == target_.get())
+    return "the output is the input target, which it overwrites";
+  if (!indices_ || fake_indices_)
+    return "";
+  if (&output == input_.get())
+    return "the output is the input source, while indices select points of it";
+  for (const auto index : *indices_)
+    if (static_cast<std::size_t>(index) >= input_->size())
+      return "index " + std::to_string(index) + " is not one of a source of " +
+             std::to_string(input_->size()) + " points";
+  return "";
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
 bool
 FlashRegistration<PointSource, PointTarget, FeatureT>::prepare(PointCloudSource& output)
 {
-  if (!target_) {
-    PCL_ERROR("[pcl::registration::%s::compute] No input target dataset was given!\n",
-              getClassName().c_str());
-    return false;
-  }
   if (target_cloud_updated_ && !force_no_recompute_) {
     tree_->setInputCloud(target_);
     target_cloud_updated_ = false;
   }
   if (!pcl::PCLBase<PointSource>::initCompute())
     return false;
-  const bool whole = indices_->size() == input_->size();
-  const auto width = whole ? input_->width : indices_->size();
-  const auto height = whole ? input_->height : 1;
-  output.header = input_->header;
-  output.is_dense = input_->is_dense;
-  // In this order and in place, since the output may be the source.
+  // In place: the output may be the source.
   output.resize(indices_->size());
   for (std::size_t i = 0; i < indices_->size(); ++i) {
     output[i] = (*input_)[(*indices_)[i]];
     output[i].data[3] = 1;
   }
-  output.width = static_cast<std::uint32_t>(width);
-  output.height = static_cast<std::uint32_t>(height);
   return true;
 }
 
@@ -168,6 +191,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::computeTransformation(
 {
   const detail::Stopwatch total;
   resetResult();
+  describeOutput(output);
   try {
     checkInput(output);
     PairOptions options = pairOptions();
@@ -196,29 +220,20 @@ void
 FlashRegistration<PointSource, PointTarget, FeatureT>::checkInput(
     const PointCloudSource& output) const
 {
-  std::ostringstream error;
+  std::string error = whyNotCopied(output);
   if (!(inlier_fraction_ >= 0 && inlier_fraction_ <= 1))
-    error << "the inlier fraction is " << inlier_fraction_ << ", it must be in [0, 1]";
+    error = "the inlier fraction is " + detail::toText(inlier_fraction_) +
+            ", it must be in [0, 1]";
   else if (k_correspondences_ <= 0)
-    error << "the correspondence randomness is " << k_correspondences_
-          << ", it must be > 0";
+    error = "the correspondence randomness is " + std::to_string(k_correspondences_) +
+            ", it must be > 0";
   else if (!(resolution_ >= 0 && std::isfinite(resolution_)))
-    error << "the resolution is " << resolution_
-          << ", it must be > 0 and finite, or 0 to estimate it";
+    error = "the resolution is " + detail::toText(resolution_) +
+            ", it must be > 0 and finite, or 0 to estimate it";
   else if (indices_->empty())
-    error << "no source point is selected";
-  else if (static_cast<const void*>(&output) == target_.get())
-    error << "the output is the input target, which it overwrites";
-  // align() has copied the selected points onto the first ones already.
-  else if (&output == input_.get() && !fake_indices_)
-    error << "the output is the input source, while indices select points of it";
-  if (!error.str().empty())
-    throw std::invalid_argument(error.str());
-  for (const auto index : *indices_)
-    if (static_cast<std::size_t>(index) >= input_->size())
-      throw std::invalid_argument("index " + std::to_string(index) +
-                                  " is not one of a source of " +
-                                  std::to_string(input_->size()) + " points");
+    error = "no source point is selected";
+  if (!error.empty())
+    throw std::invalid_argument(error);
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>

@@ -6,9 +6,9 @@
 #pragma once
 
 #include <pcl_flashreg/flash_registration.h>
+#include <pcl_flashreg/impl/number_text.hpp>
 #include <pcl_flashreg/impl/packed_features.hpp>
 
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -155,11 +155,9 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::keypointsLeft() const
 {
   if (given_correspondences_ || source_features_ || target_features_)
     return "";
-  std::ostringstream text;
-  text << " (the resolution of " << getResolution() << " leaves "
-       << source_side_.scan().size() << " source and " << target_side_.scan().size()
-       << " target keypoints)";
-  return text.str();
+  return " (the resolution of " + detail::toText(getResolution()) + " leaves " +
+         std::to_string(source_side_.scan().size()) + " source and " +
+         std::to_string(target_side_.scan().size()) + " target keypoints)";
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>

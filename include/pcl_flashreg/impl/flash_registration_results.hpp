@@ -28,7 +28,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::resetResult()
   result_ = {};
   timings_ = {};
   estimated_resolution_ = 0;
-  error_message_.clear();
+  error_message_ = missingInput();
   inliers_ = pcl::Indices();
 }
 
@@ -42,6 +42,22 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::fail(const std::string& m
   inliers_ = pcl::Indices();
   converged_ = false;
   final_transformation_ = transformation_ = Matrix4::Identity();
+}
+
+template <typename PointSource, typename PointTarget, typename FeatureT>
+void
+FlashRegistration<PointSource, PointTarget, FeatureT>::describeOutput(
+    PointCloudSource& output) const
+{
+  const auto size = output.size();
+  const bool whole =
+      size == input_->size() && size == std::size_t{input_->width} * input_->height;
+  output.width = whole ? input_->width : static_cast<std::uint32_t>(size);
+  output.height = whole ? input_->height : 1;
+  output.header = input_->header;
+  output.is_dense = input_->is_dense;
+  output.sensor_origin_ = input_->sensor_origin_;
+  output.sensor_orientation_ = input_->sensor_orientation_;
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
@@ -70,6 +86,15 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::applyResult(
     pcl::transformPointCloudWithNormals(output, output, T_target_source);
   else
     pcl::transformPointCloud(output, output, T_target_source);
+  const RigidTransform& pose = result_.T_target_source;
+  const Eigen::Vector3d origin =
+      output.sensor_origin_.template head<3>().template cast<double>();
+  const Eigen::Quaterniond orientation =
+      output.sensor_orientation_.template cast<double>();
+  output.sensor_origin_.template head<3>() =
+      (pose.rotation * origin + pose.translation).template cast<float>();
+  output.sensor_orientation_ =
+      (Eigen::Quaterniond(pose.rotation) * orientation).template cast<float>();
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>

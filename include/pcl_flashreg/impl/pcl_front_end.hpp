@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <pcl_flashreg/impl/number_text.hpp>
 #include <pcl_flashreg/impl/stopwatch.hpp>
 #include <pcl_flashreg/pcl_front_end.h>
 
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -55,11 +55,9 @@ finitePoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices)
 inline void
 checkVoxelGrid(const PointsXYZ& points, double resolution)
 {
-  std::ostringstream error;
-  if (!(resolution > 0) || !std::isfinite(resolution)) {
-    error << "the resolution is " << resolution << ", it must be > 0 and finite";
-    throw std::invalid_argument(error.str());
-  }
+  if (!(resolution > 0) || !std::isfinite(resolution))
+    throw std::invalid_argument("the resolution is " + toText(resolution) +
+                                ", it must be > 0 and finite");
   double voxels = 1;
   bool fits = true;
   for (int axis = 0; axis < 3; ++axis) {
@@ -73,12 +71,10 @@ checkVoxelGrid(const PointsXYZ& points, double resolution)
     fits &= std::max(std::abs(low), std::abs(high)) < std::numeric_limits<int>::max();
   }
   // One voxel an axis to spare: PCL divides in single precision.
-  if (fits && voxels < 0.5 * std::numeric_limits<int>::max())
-    return;
-  error << "the resolution " << resolution
-        << " is too small for the extent of the cloud: "
-        << "more voxels than 32 bits can number";
-  throw std::invalid_argument(error.str());
+  if (!fits || voxels >= 0.5 * std::numeric_limits<int>::max())
+    throw std::invalid_argument("the resolution " + toText(resolution) +
+                                " is too small for the extent of the cloud: more "
+                                "voxels than 32 bits can number");
 }
 
 /** \brief One point a voxel, the centroid of those in it. */
