@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace pcl_flashreg::io {
@@ -190,6 +191,27 @@ isSeveralRows(std::string_view bytes, std::size_t length, std::size_t part, doub
   return gain < 0.2 || looksTheSameWay(bytes, length, part);
 }
 
+using Information = std::array<double, kLongestRow + 1>;
+
+/** \brief The row that rows of a length are several of; 0 if they are not. Where more than
+ * one will do, the one that tells most. */
+std::size_t
+partOf(std::string_view bytes, std::size_t length, const Information& information)
+{
+  std::vector<std::pair<double, std::size_t>> parts;
+  for (std::size_t number = 2; length / number >= kShortestRow; ++number)
+    if (length % number == 0) {
+      const std::size_t part = length / number;
+      const double gain = information[length] - information[part];
+      parts.emplace_back(gain / std::log(static_cast<double>(number)), part);
+    }
+  std::sort(parts.begin(), parts.end());
+  for (const auto& [gain, part] : parts)
+    if (isSeveralRows(bytes, length, part, gain))
+      return part;
+  return 0;
+}
+
 } // namespace
 
 std::size_t
@@ -198,21 +220,14 @@ rowLengthOf(std::string_view bytes)
   if (bytes.size() < sizeof(float) * kLongestRow)
     return 0;
   const Classes classes = classify(bytes);
-  std::array<double, kLongestRow + 1> information{};
+  Information information{};
   for (std::size_t length = 2; length <= kLongestRow; ++length)
     information[length] = informationOf(classes, length);
   const auto shortest = information.begin() + kShortestRow;
   auto best = static_cast<std::size_t>(std::max_element(shortest, information.end()) -
                                        information.begin());
-  for (std::size_t number = 2; best / number >= kShortestRow; ++number) {
-    const std::size_t part = best / number;
-    const double gain =
-        (information[best] - information[part]) / std::log(static_cast<double>(number));
-    if (best % number == 0 && isSeveralRows(bytes, best, part, gain)) {
-      best = part;
-      number = 1;
-    }
-  }
+  while (const std::size_t part = partOf(bytes, best, information))
+    best = part;
   constexpr double least = 0.1;
   if (information[best] < least)
     return 0;

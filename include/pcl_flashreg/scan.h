@@ -189,12 +189,13 @@ struct ScanInput {
    * are none. */
   FeatureView features;
 
-  /** \brief Computed normals are turned to here, in the frame of the points: where the sensor stood
-   * (a PCL cloud's sensor_origin_). */
+  /** \brief Where the sensor is said to have stood, in the frame of the points (a PCL cloud's
+   * sensor_origin_). Computed normals are turned there; unless the points can't have been
+   * seen from there: then to where they say that they were. */
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
-  /** \brief Whether the sensor did stand there: then what lies between it and the points
-   * is empty. The origin of a cloud with a singlePrecisionShift() is never believed: nobody
-   * sees that far. */
+  /** \brief Whether anybody says so: then what lies between the sensor and the points is
+   * empty. The points have the last word (docs/method.md, ViewpointSource). The origin of a
+   * cloud with a singlePrecisionShift() is never believed: nobody sees that far. */
   bool viewpoint_known = false;
 
   /** \brief A scan that was made from the same input: it is taken in place of a new one
