@@ -70,8 +70,9 @@ countSearches(const Points& points, std::size_t& described)
   cpu::FeatureStages stages(kernels, pool);
   FeatureTimings timings;
   searches = 0;
-  runScanPipeline(
+  findSurface(
       stages, viewOf(points), {}, withoutVoxels(), ScanContent::Descriptors, timings);
+  describeSurface(stages, withoutVoxels(), timings);
   described = stages.takeResult(ScanContent::Descriptors, false).size;
   return searches;
 }
