@@ -95,7 +95,9 @@ TEST_F(Doubts, StraysBeyondAllOthers)
   for (const char* leaf : {"", " --leaf 0.1"}) {
     const ProgramRun run = align(std::string("stray.pcd target.pcd --json -") + leaf);
     ASSERT_EQ(run.status, 0) << run.err;
-    EXPECT_TRUE(says(run, "note: stray.pcd: 1 points are left out")) << run.err;
+    EXPECT_TRUE(
+        says(run, "note: stray.pcd: 1 point is left out that lies beyond all others"))
+        << run.err;
     EXPECT_EQ(run.json().at("points_left_out").at("source").at("stray"), 1);
   }
 }

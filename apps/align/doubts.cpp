@@ -20,19 +20,25 @@ vectorOf(const Eigen::Vector3d& v)
          detail::toText(v.z()) + ")";
 }
 
+std::string
+leftOut(std::size_t count)
+{
+  return count == 1 ? "1 point is left out that lies "
+                    : std::to_string(count) + " points are left out that lie ";
+}
+
 void
 noteLeftOut(const std::string& path,
             const LeftOutPoints& left_out,
             const Progress& progress)
 {
   if (left_out.repeated > 0)
-    progress.note(path + ": " + std::to_string(left_out.repeated) +
-                  " points are left out that lie in one place, most of them at " +
-                  vectorOf(left_out.place) + ": beams without a return?");
+    progress.note(path + ": " + leftOut(left_out.repeated) +
+                  "in one place, most of them at " + vectorOf(left_out.place) +
+                  ": beams without a return?");
   if (left_out.stray > 0)
-    progress.note(path + ": " + std::to_string(left_out.stray) +
-                  " points are left out that lie beyond all others by orders of "
-                  "magnitude");
+    progress.note(path + ": " + leftOut(left_out.stray) +
+                  "beyond all others by orders of magnitude");
 }
 
 void
