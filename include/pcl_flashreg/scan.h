@@ -191,7 +191,9 @@ struct ScanInput {
 
   /** \brief Where the sensor is said to have stood, in the frame of the points (a PCL cloud's
    * sensor_origin_). Computed normals are turned there; unless the points can't have been
-   * seen from there: then to where they say that they were. */
+   * seen from there: then to where they say that they were. A place other than the origin
+   * that is not known to be the sensor's is where normals are turned, whatever the points
+   * say. */
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
   /** \brief Whether anybody says so: then what lies between the sensor and the points is
    * empty. The points have the last word (docs/method.md, ViewpointSource). The origin of a

@@ -41,12 +41,18 @@ comesFirst(const Place& a, const Place& b)
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/** \brief Places where many of the samples lie. */
+/** \brief Points in one place that are too many to be a surface's. */
+constexpr std::size_t FEWEST = 100;
+
+/** \brief Places where many of the samples lie.
+ * \param[in] points number of points that the samples stand for */
 std::vector<Place>
-crowdedPlaces(std::vector<Place> samples)
+crowdedPlaces(std::vector<Place> samples, std::size_t points)
 {
-  // One sample in 250: what a sensor measures hardly ever meets itself.
-  const std::size_t many = std::max<std::size_t>(8, samples.size() / 250);
+  // One in 250 and a hundred in all: what a sensor measures hardly ever meets itself.
+  const std::size_t hundred =
+      FEWEST * samples.size() / std::max<std::size_t>(1, points);
+  const std::size_t many = std::max({std::size_t{16}, hundred, samples.size() / 250});
   std::sort(samples.begin(), samples.end(), comesFirst);
   std::vector<Place> places;
   for (std::size_t begin = 0; begin < samples.size();) {
@@ -117,11 +123,10 @@ template <typename Scalar>
 LeftOutPoints
 findLeftOut(const BasicPointView<Scalar>& points, std::vector<std::int32_t>& kept)
 {
-  constexpr std::size_t FEWEST = 100;
   const std::vector<Place> samples = samplesOf(points);
   if (samples.size() < FEWEST)
     return {};
-  const std::vector<Place> crowded = crowdedPlaces(samples);
+  const std::vector<Place> crowded = crowdedPlaces(samples, countOf(points));
   const Reach reach = reachOf(samples, crowded);
   constexpr std::size_t NO_CROWD = ~std::size_t{0};
   const auto crowdOf = [&](const Place& place) {

@@ -190,9 +190,13 @@ ScanMaker::Seen
 ScanMaker::turnToViewpoint(const PreparedInput& input, double resolution)
 {
   const Eigen::Vector3f stated = (input.viewpoint - input.shift).cast<float>();
-  // Nobody needs a place: given normals stay as they are.
-  if (!input.viewpoint_known && !stages_.hasComputedNormals())
+  // Nobody needs a place, as given normals stay as they are; or somebody wants normals to
+  // be turned to one that is not the sensor's.
+  const bool is_wish = input.viewpoint_possible && !input.viewpoint.isZero(0);
+  if (!input.viewpoint_known && (is_wish || !stages_.hasComputedNormals())) {
+    stages_.turnNormals(stated, false);
     return {input.viewpoint, ViewpointSource::Unknown};
+  }
   const cpu::Visibility visibility = stages_.visibility(VIEWPOINT_ELEMENTS, resolution);
   const FoundViewpoint found =
       findViewpoint(visibility, stated, input.viewpoint_possible, pool_);

@@ -202,6 +202,9 @@ findViewpoint(const cpu::Visibility& visibility,
   // A cloud of which more than this is hidden was put together from several places. Of a
   // hand-held sensor's up to 0.17 was, with its true place, and 0.05 with the best.
   constexpr double MOST_HIDDEN = 0.3, MOST_HIDDEN_FROM_BEST = 0.1;
+  // What hides nothing contradicts nothing; the density alone, of a model that somebody
+  // sampled, is no reason to doubt it.
+  constexpr double HIDES_NOTHING = 0.01;
   FoundViewpoint found{stated, true, true};
   // So few keypoints are too coarse a picture to tell.
   constexpr std::size_t TOO_FEW = 500;
@@ -213,12 +216,16 @@ findViewpoint(const cpu::Visibility& visibility,
   if (!possible ||
       visibility.implausibility(stated, FEW) > search.glance() + AS_GOOD_AS_A_FEW) {
     const Candidate best = search.best();
-    if (!possible || visibility.implausibility(stated, MANY) >
-                         best.implausibility + toleranceAt(visibility, stated, best))
-      found = {best.place, false, true};
+    const bool refuted =
+        !possible || (visibility.implausibility(stated, MANY) >
+                          best.implausibility + toleranceAt(visibility, stated, best) &&
+                      visibility.hiddenShare(stated, MANY) > HIDES_NOTHING);
+    if (refuted && visibility.hiddenShare(best.place, MANY) < MOST_HIDDEN_FROM_BEST)
+      return {best.place, false, true};
+    if (refuted)
+      return {stated, true, false};
   }
-  found.sees_all = visibility.hiddenShare(found.place, MANY) <
-                   (found.is_stated ? MOST_HIDDEN : MOST_HIDDEN_FROM_BEST);
+  found.sees_all = visibility.hiddenShare(stated, MANY) < MOST_HIDDEN;
   return found;
 }
 
