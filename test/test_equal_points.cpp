@@ -48,48 +48,80 @@ withCopies(const Points& points, const Points& copied, std::size_t copies)
   return all;
 }
 
-std::atomic<std::size_t> searches{0};
-decltype(cpu::Kernels::collectNeighbors) searchPlainly = nullptr;
+/** \brief What a description of a cloud does, as its hot loops see it. */
+struct Work {
+  /** \brief Searches for neighbours. */
+  std::atomic<std::size_t> searches{0};
+  /** \brief Histograms of single points that were added up, and those of them in which
+   * there is nothing. */
+  std::atomic<std::size_t> added{0}, empty{0};
+};
+Work work;
+cpu::Kernels plain;
 
 template <typename... Arguments>
 std::size_t
 searchAndCount(Arguments... arguments)
 {
-  ++searches;
-  return searchPlainly(arguments...);
+  ++work.searches;
+  return plain.collectNeighbors(arguments...);
 }
 
-/** \brief How often neighbours are searched for to describe a cloud. */
-std::size_t
-countSearches(const Points& points, std::size_t& described)
+void
+addAndCount(const float* rows,
+            const std::uint32_t* indices,
+            const float* weights,
+            std::size_t count,
+            float* sum)
 {
-  cpu::Kernels kernels = cpu::selectKernels();
-  searchPlainly = kernels.collectNeighbors;
-  kernels.collectNeighbors = &searchAndCount;
+  work.added += count;
+  for (std::size_t n = 0; n < count; ++n) {
+    const float* row = rows + indices[n] * cpu::HISTOGRAM_STRIDE;
+    work.empty +=
+        std::all_of(row, row + cpu::FPFH_BINS, [](float bin) { return bin == 0; });
+  }
+  plain.weightedRowSum(rows, indices, weights, count, sum);
+}
+
+/** \return how many points are described */
+std::size_t
+describeAndCount(const Points& points)
+{
+  plain = cpu::selectKernels();
+  cpu::Kernels counting = plain;
+  counting.collectNeighbors = &searchAndCount;
+  counting.weightedRowSum = &addAndCount;
   ThreadPool pool(2);
-  cpu::FeatureStages stages(kernels, pool);
+  cpu::FeatureStages stages(counting, pool);
   FeatureTimings timings;
-  searches = 0;
+  work.searches = work.added = work.empty = 0;
   findSurface(
       stages, viewOf(points), {}, withoutVoxels(), ScanContent::Descriptors, timings);
   describeSurface(stages, withoutVoxels(), timings);
-  described = stages.takeResult(ScanContent::Descriptors, false).size;
-  return searches;
+  return stages.takeResult(ScanContent::Descriptors, false).size;
 }
 
 TEST(EqualPoints, AreSearchedForOnce)
 {
   const Points points = made::roomPoints(60);
   const std::size_t size = points.size() / 3;
-  std::size_t described = 0;
-  EXPECT_EQ(countSearches(points, described), 3 * size);
-  EXPECT_EQ(described, size);
-  // One that has neighbours, and one that has none besides its copies: no normal.
-  const Points near(points.begin() + 30, points.begin() + 33), far{-9, -9, -9};
-  EXPECT_EQ(countSearches(withCopies(points, near, 500), described), 3 * size);
-  EXPECT_EQ(described, size + 500);
-  EXPECT_EQ(countSearches(withCopies(points, far, 500), described), 3 * size + 1);
-  EXPECT_EQ(described, size);
+  EXPECT_EQ(describeAndCount(points), size);
+  EXPECT_EQ(work.searches, 3 * size);
+  const std::size_t pairs = work.added;
+  EXPECT_EQ(work.empty, 0u);
+
+  // One that has neighbours: all of its copies count there.
+  const Points near(points.begin() + 30, points.begin() + 33);
+  EXPECT_EQ(describeAndCount(withCopies(points, near, 500)), size + 500);
+  EXPECT_EQ(work.searches, 3 * size);
+  EXPECT_GT(work.added, pairs + 500);
+  EXPECT_EQ(work.added % 500, pairs % 500);
+  EXPECT_EQ(work.empty, 0u);
+
+  // One that has none besides its copies has no normal, and is gone.
+  EXPECT_EQ(describeAndCount(withCopies(points, {-9, -9, -9}, 500)), size);
+  EXPECT_EQ(work.searches, 3 * size + 1);
+  EXPECT_EQ(work.added, pairs);
 }
 
 TEST(EqualPoints, AreDescribedAlike)
