@@ -56,7 +56,7 @@ function(pcl_flashreg_nvcc_version version complaint)
   endif()
   pcl_flashreg_first_errors(errors "${output}" "${result}")
   list(JOIN ARGN " " name)
-  set(${complaint} "${name} --version fails:${errors}" PARENT_SCOPE)
+  set(${complaint} "${name} --version is not answered as by nvcc:${errors}" PARENT_SCOPE)
 endfunction()
 
 # pcl_flashreg_nvcc_architectures(<flags> <architectures>): as CMake makes flags of them.

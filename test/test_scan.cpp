@@ -19,6 +19,7 @@
 #include <fstream>
 #include <limits>
 #include <set>
+#include <type_traits>
 #include <utility>
 
 namespace pcl_flashreg {
@@ -394,6 +395,38 @@ TEST_F(ScanFile, RegistersLikeTheScanThatWasSaved)
             loaded.T_target_source.toMatrix<double>());
   EXPECT_EQ(made.confidence, loaded.confidence);
   EXPECT_EQ(made.inliers, loaded.inliers);
+}
+
+/** \brief The same on every machine, whatever its own order: read byte by byte. */
+TEST_F(ScanFile, HasLittleEndianNumbers)
+{
+  const Scan scan = this->scan();
+  const std::string bytes = scan.serialize();
+  const auto number = [&bytes](std::size_t at, std::size_t size) {
+    std::uint64_t value = 0;
+    for (std::size_t i = size; i-- > 0;)
+      value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return value;
+  };
+  const auto bits = [](auto value) {
+    std::conditional_t<sizeof(value) == 4, std::uint32_t, std::uint64_t> word;
+    std::memcpy(&word, &value, sizeof(value));
+    return static_cast<std::uint64_t>(word);
+  };
+  EXPECT_EQ(bytes.substr(12, 4), "\x04\x03\x02\x01");
+  EXPECT_EQ(number(8, 4), 1u) << "version";
+  EXPECT_EQ(number(16, 8), scan.size());
+  EXPECT_EQ(number(24, 8), scan.features().dimension);
+  EXPECT_EQ(number(40, 8), bits(V)) << "spacing";
+  constexpr std::size_t POINTS = 128;
+  EXPECT_EQ(number(POINTS, 4), bits(scan.points()[0]));
+  EXPECT_EQ(number(POINTS + 4, 4), bits(scan.points()[1]));
+  std::uint64_t sum = 0xcbf29ce484222325u;
+  for (std::size_t i = 0; i + 8 < bytes.size(); i += 8) {
+    sum = (sum ^ number(i, 8)) * 0x100000001b3u;
+    sum ^= sum >> 32;
+  }
+  EXPECT_EQ(number(bytes.size() - 8, 8), sum);
 }
 
 TEST_F(ScanFile, ThatIsCutIsRefused)

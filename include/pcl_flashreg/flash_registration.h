@@ -60,8 +60,8 @@ struct FlashRegistrationTimings {
  *   transformation is always from the source as given.
  * - setIndices() selects source points; features are still given for the full cloud.
  *   Points and descriptors that are not finite are skipped, whatever is_dense says.
- * - The output may be the source cloud itself, if no indices are set. Its normals, and
- *   its sensor_origin_ and sensor_orientation_, are the source's, moved with the points.
+ * - The output may be the source cloud itself, if no indices are set. The source's
+ *   normals, sensor_origin_ and sensor_orientation_ are moved with its points.
  * - As with all of PCL: a program with a point type of its own must include
  *   pcl/kdtree/impl/kdtree_flann.hpp or define PCL_NO_PRECOMPILE, and one compiled
  *   with other SIMD flags than PCL's libraries (-mavx2) must define the latter before it
