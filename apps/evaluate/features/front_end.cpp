@@ -31,19 +31,20 @@ madeCloud()
 std::string
 frontEndFingerprint()
 {
-  const std::vector<float> xyz = madeCloud();
+  std::vector<float> xyz = madeCloud();
+  // Beams without a return, and a stray.
+  xyz.insert(xyz.end(), 3 * 200, 0.0f);
+  xyz.insert(xyz.end(), {1e5f, 0, 0});
   ScanInput<float> input;
   input.points.data = xyz.data();
   input.points.size = xyz.size() / 3;
-  const Scan scan = PairRegistration(BackendKind::Cpu, 1).makeScan(input, 0.1);
-  const FeatureView features = scan.features();
-  std::string bytes;
-  const auto append = [&bytes](const float* values, std::size_t count) {
-    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(float));
-  };
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    append(scan.points() + 3 * i, 3);
-    append(features.data + i * features.stride, features.dimension);
+  input.viewpoint_known = true;
+  PairRegistration registration(BackendKind::Cpu, 1);
+  std::string bytes = registration.makeScan(input, 0.1).serialize();
+  // Places that the points were seen from, or nearly, or not at all.
+  for (const double x : {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 20.0}) {
+    input.viewpoint = {x, 1.3 - x, 1.9 + 0.2 * x};
+    bytes += registration.makeScan(input, 0.03, ScanContent::Surface).serialize();
   }
   return toHex(hashOf(bytes));
 }
