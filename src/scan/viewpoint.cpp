@@ -11,7 +11,7 @@ namespace pcl_flashreg {
 namespace {
 
 /** \brief Elements that are looked at from every place that is tried, and from the best. */
-constexpr std::size_t FEW = 600, MANY = VIEWPOINT_ELEMENTS;
+constexpr std::size_t FEW = 400, MANY = VIEWPOINT_ELEMENTS;
 
 struct Candidate {
   Eigen::Vector3f place;
@@ -104,7 +104,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t STARTS = 4;
+  static constexpr std::size_t STARTS = 3;
   static bool
   comesFirst(const Candidate& a, const Candidate& b)
   {
