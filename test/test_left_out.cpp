@@ -3,6 +3,7 @@
 
 // Points that are none: beams without a return, and strays.
 
+#include "scan/left_out.h"
 #include "support/made_scans.h"
 
 #include <pcl_flashreg/pair_registration.h>
@@ -68,6 +69,30 @@ TEST(LeftOut, BeamsWithoutAReturnChangeNothing)
       EXPECT_EQ(result.source_left_out.place, Eigen::Vector3d::Constant(value));
       EXPECT_EQ(result.target_left_out.repeated, 0u);
     }
+}
+
+/** \brief What is left out of points in one place that comes before all others, and of
+ * others. */
+std::size_t
+repeatedOf(std::size_t in_one_place, std::size_t others)
+{
+  std::vector<double> xyz(3 * in_one_place, -1.0);
+  xyz.insert(xyz.end(),
+             room().source.begin(),
+             room().source.begin() + static_cast<std::ptrdiff_t>(3 * others));
+  const BasicPointView<double> points{xyz.data(), xyz.size() / 3, 3};
+  std::vector<std::int32_t> kept;
+  const LeftOutPoints left_out = findLeftOut(points, kept);
+  EXPECT_EQ(kept.size(), left_out.repeated > 0 ? others : 0);
+  return left_out.repeated;
+}
+
+TEST(LeftOut, AHundredInOnePlaceAreNoSurface)
+{
+  for (const std::size_t others : {0, 1, 900, 3000}) {
+    EXPECT_EQ(repeatedOf(100, others), 100u) << others;
+    EXPECT_EQ(repeatedOf(99, others), 0u) << others;
+  }
 }
 
 TEST(LeftOut, StraysChangeNothing)

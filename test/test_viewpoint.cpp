@@ -161,6 +161,33 @@ TEST(Viewpoint, IsNotLookedForWhereNobodyStatedOne)
   EXPECT_GT(static_cast<double>(turned), 0.95 * static_cast<double>(scan.size()));
 }
 
+/** \brief Far from the origin, where the origin is no viewpoint. */
+Scan
+geoReferencedScan(const Points& points, double resolution)
+{
+  const Eigen::Isometry3d frame(Eigen::Translation3d(5e5, 4e6, 300));
+  const Seen seen(points, frame, Eigen::Vector3d::Zero());
+  return PairRegistration(BackendKind::Cpu, 2).makeScan(seen.input(), resolution);
+}
+
+TEST(Viewpoint, OfAGeoReferencedCloudIsFoundFromFewKeypointsToo)
+{
+  const Eigen::Vector3d sensor = Eigen::Vector3d(5e5, 4e6, 300) + HERE;
+  for (const double resolution : {0.1, 1.0, 2.0}) {
+    const Scan scan = geoReferencedScan(fromHere(), resolution);
+    ASSERT_EQ(scan.viewpointSource(), ViewpointSource::Points) << scan.size();
+    EXPECT_LT((*scan.viewpoint() - sensor).norm(), 1.0) << scan.size();
+  }
+  EXPECT_LT(geoReferencedScan(fromHere(), 2.0).size(), 50u);
+}
+
+TEST(Viewpoint, OfAGeoReferencedCloudWithoutASurfaceIsNone)
+{
+  const Scan scan = geoReferencedScan({{1, 1, 1}, {3, 2, 1}}, V);
+  EXPECT_EQ(scan.viewpointSource(), ViewpointSource::Unknown);
+  EXPECT_FALSE(scan.viewpoint());
+}
+
 TEST(Viewpoint, IsTheSameOnAnyNumberOfThreads)
 {
   const Seen seen(fromHere(), frameAt({40, 3, 1}), Eigen::Vector3d::Zero());
