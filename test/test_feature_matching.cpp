@@ -157,6 +157,20 @@ TEST_P(Matching, TakesTightClusters)
   expectExact(sides[1], sides[0]);
 }
 
+/** \brief The same far from zero: all values are long, and their differences short. */
+TEST_P(Matching, TakesATightClusterFarFromZero)
+{
+  for (const std::size_t dimension : {3, 33}) {
+    made::Random random(30);
+    Features sides[2] = {{{}, dimension, dimension}, {{}, dimension, dimension}};
+    for (int i = 0; i < 900; ++i)
+      for (std::size_t d = 0; d < dimension; ++d)
+        sides[i % 3 == 0].values.push_back(
+            static_cast<float>(1e4 + std::floor(random.uniform(0, 12)) / 1024));
+    expectExact(sides[1], sides[0]);
+  }
+}
+
 TEST_P(Matching, TakesAnyWidth)
 {
   for (const std::size_t dimension : {1, 2, 4, 8, 352})
