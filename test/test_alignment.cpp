@@ -3,6 +3,7 @@
 
 // Laws of the alignments, and Eigen's SVD as their oracle.
 
+#include "math/distinctness.h"
 #include "math/triplet_alignment.h"
 #include "math/weighted_alignment.h"
 #include "support/made_correspondences.h"
@@ -224,6 +225,24 @@ TEST(AlignWeighted, RefusesWhatDeterminesNoRotation)
   EXPECT_FALSE(alignWeighted(coincident, T));
   EXPECT_FALSE(alignWeighted(collinear, T));
   EXPECT_FALSE(alignWeighted(not_finite, T));
+}
+
+TEST(SamePose, TakesNoCornerMoreThanFiveInlierDistancesApart)
+{
+  const auto poseOf = [](double turn, double x) {
+    const double c = std::cos(turn), s = std::sin(turn);
+    return Pose{{c, -s, 0, s, c, 0, 0, 0, 1}, {x, 0, 0}};
+  };
+  const Pose start = poseOf(0, 0);
+  EXPECT_TRUE(samePose(start, poseOf(0, 2.5), 0, 0.5f));
+  EXPECT_FALSE(samePose(start, poseOf(0, 2.500001), 0, 0.5f));
+  // A turn takes the corners of a cube in a sphere of 12 m this far.
+  const double arm = std::sqrt(2.0 / 3) * 12;
+  const double turn = 2 * std::asin(0.5 * 2.5 / arm);
+  EXPECT_TRUE(samePose(start, poseOf(0.999 * turn, 0), 12, 0.5f));
+  EXPECT_FALSE(samePose(start, poseOf(1.001 * turn, 0), 12, 0.5f));
+  EXPECT_FALSE(samePose(start, poseOf(-0.9 * turn, 0.5), 12, 0.5f))
+      << "one corner is enough";
 }
 
 TEST(SquaredResidual, IsTheDistanceSquared)

@@ -338,6 +338,25 @@ TEST(Estimator, AutoTurnsToBoundedOnDenseGraphs)
             SecondOrder::Exact);
 }
 
+TEST(Estimator, AutoIsExactUpToAMeanDegreeOfEightTimesTheCapacity)
+{
+  // All agree with each other: each of n has n - 1 neighbours.
+  Recipe recipe;
+  recipe.inlier_ratio = 1;
+  recipe.noise = 0;
+  Parameters parameters;
+  parameters.min_length_sum = 0;
+  for (const int capacity : {1, 3}) {
+    parameters.row_capacity = parameters.pool_capacity = capacity;
+    recipe.size = 8 * static_cast<std::size_t>(capacity) + 1;
+    EXPECT_EQ(Estimator().estimate(made::make(recipe).view(), parameters).second_order,
+              SecondOrder::Exact);
+    ++recipe.size;
+    EXPECT_EQ(Estimator().estimate(made::make(recipe).view(), parameters).second_order,
+              SecondOrder::Bounded);
+  }
+}
+
 TEST(Estimator, TakesTwentyThousandInliers)
 {
   Recipe recipe;
