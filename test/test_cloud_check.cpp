@@ -9,6 +9,7 @@
 #include "judgement/cpu/plane_alignment.h"
 #include "judgement/cpu/principal_motions.h"
 #include "judgement/confidence.h"
+#include "judgement/walk.h"
 
 #include <pcl_flashreg/estimator.h>
 
@@ -138,6 +139,7 @@ TEST(NearestPointGrid, AgreesWithExhaustiveSearchToWithinACell)
       EXPECT_LE((points[answer] - query).norm(), nearest + 0.1f * std::sqrt(3.0f));
     }
     else {
+      EXPECT_EQ(answer, -1);
       EXPECT_GT(nearest, 0.14f);
     }
   }
@@ -248,6 +250,25 @@ TEST(PrincipalMotions, MoveAlongAScrew)
   EXPECT_NEAR(back.z, 3, 1e-12);
 }
 
+TEST(Walk, IsAtAnotherPoseFromNineSpacingsOn)
+{
+  ThreadPool pool(2);
+  const Pose identity = poseOf(Eigen::Isometry3d::Identity());
+  for (const int walls : {1, 3}) {
+    const Surface source = surfaceOf(Corner(1, walls).view());
+    const Surface target = surfaceOf(Corner(2, walls).view());
+    const std::vector<Walk> walks = walkOff({source, target, SPACING}, identity, pool);
+    ASSERT_FALSE(walks.empty());
+    for (const Walk& walk : walks) {
+      EXPECT_NEAR(walk.far, 9 * SPACING, 1e-4 * SPACING);
+      EXPECT_LE(walk.stops.front().way, -walk.far);
+      EXPECT_GE(walk.stops.back().way, walk.far);
+      // A wall alone says nearly the same from elsewhere, a corner does not.
+      EXPECT_EQ(walk.rise(true) > -0.5, walls == 1) << walk.rise(true);
+    }
+  }
+}
+
 /** \brief A corner seen twice, and correspondences of which more agree with a wrong motion
  * than with the right one. */
 struct Deceived {
@@ -259,12 +280,19 @@ struct Deceived {
   Deceived()
   {
     made::Random random(7);
-    const Eigen::Isometry3d slid = motion(0, {0.6, 0, 0}) * T_target_source;
-    for (int i = 0; i < 100; ++i) {
+    add(40, T_target_source, random);
+    add(60, motion(0, {0.6, 0, 0}) * T_target_source, random);
+  }
+
+  /** \brief Correspondences of points of the source that agree with a motion. */
+  void
+  add(int count, const Eigen::Isometry3d& T, made::Random& random)
+  {
+    for (int i = 0; i < count; ++i) {
       const std::size_t row = static_cast<std::size_t>(
           random.uniform(0, static_cast<double>(source.xyz.size() / 3)));
       const Eigen::Vector3d s(&source.xyz[3 * row]);
-      const Eigen::Vector3d t = (i < 40 ? T_target_source : slid) * s;
+      const Eigen::Vector3d t = T * s;
       source_xyz.insert(source_xyz.end(), s.data(), s.data() + 3);
       target_xyz.insert(target_xyz.end(), t.data(), t.data() + 3);
     }
@@ -315,6 +343,24 @@ TEST(Estimator, LetsTheCloudsChoose)
     EXPECT_EQ(result.confidence, confidenceOf(result.evidence));
     EXPECT_EQ(result.converged, result.confidence >= Parameters().min_confidence);
   }
+}
+
+/** \brief Thirty wrong motions have more correspondences than the right one. */
+TEST(Estimator, AsksTheCloudsAboutEveryHypothesis)
+{
+  Deceived deceived;
+  deceived.source_xyz.clear();
+  deceived.target_xyz.clear();
+  made::Random random(8);
+  deceived.add(8, deceived.T_target_source, random);
+  for (int wrong = 0; wrong < 30; ++wrong)
+    deceived.add(12, random.pose(2), random);
+  EXPECT_GT(deceived.error(Estimator().estimate(deceived.view())), 0.5)
+      << "the test needs a wrong majority";
+  const auto clouds = deceived.clouds();
+  const Result result = Estimator().estimate(deceived.view(), {}, {}, &clouds);
+  EXPECT_LT(deceived.error(result), 0.3 * SPACING);
+  EXPECT_EQ(result.inliers.size(), 8u);
 }
 
 TEST(Estimator, SaysTheSameOfCloudsOnAnyNumberOfThreads)
