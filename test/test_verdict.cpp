@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace pcl_flashreg {
@@ -280,6 +281,69 @@ TEST(Verdict, IsTheSameInBothDirections)
   EXPECT_NEAR(there.pose.confidence, back.pose.confidence, 0.02);
   EXPECT_NEAR(there.pose.evidence.stiffness, back.pose.evidence.stiffness, 0.005);
   EXPECT_NEAR(there.pose.evidence.hold, back.pose.evidence.hold, 0.3);
+}
+
+/** \brief The confidence that the coefficients of docs/method.md, in its order of
+ * columns, give to evidence of the clouds. */
+double
+documentedConfidence(const Evidence& e, std::size_t column)
+{
+  const double matched = e.agreement.matched + 0.01;
+  const double terms[] = {1,
+                          std::log(e.inliers + 5),
+                          std::log(matched),
+                          std::log(e.agreement.contradicted / matched + 0.01),
+                          e.agreement.residual,
+                          e.lead,
+                          std::log(e.stiffness + 0.001),
+                          e.hold};
+  constexpr double COEFFICIENTS[3][8] = {
+      {-5.55, 0.93, 1.69, -1.69, -3.39, 0.65, 0.56, 1.76},
+      {-3.54, 1.96, 0, 0, -5.66, 1.19, 0.97, 2.03},
+      {-6.65, 2.57, 0, 0, -5.23, 2.08, 0.76, 1.55}};
+  double log_odds = 0;
+  for (std::size_t i = 0; i < 8; ++i)
+    log_odds += COEFFICIENTS[column][i] * terms[i];
+  const double held = 1 / (1 + std::exp(-8 * (e.hold - 0.2)));
+  const double stiff = 1 / (1 + std::pow(0.004 / e.stiffness, 4));
+  const double alone = 1 / (1 + std::pow(e.rivals, 1.5));
+  return held * stiff * alone / (1 + std::exp(-log_odds));
+}
+
+TEST(Verdict, OfCloudsIsTheDocumentedOne)
+{
+  Evidence evidence;
+  evidence.has_clouds = true;
+  evidence.agreement = {0.3, 0.03, 0.4};
+  evidence.inliers = 20;
+  evidence.lead = 0.5;
+  evidence.hold = 0.6;
+  evidence.stiffness = 0.02;
+  evidence.rivals = 0.3;
+  evidence.mirrored = -20;
+  for (const std::size_t column : {0, 1, 2}) {
+    evidence.has_viewpoints = column < 2;
+    evidence.one_viewpoint = column == 1;
+    const double p = documentedConfidence(evidence, column);
+    EXPECT_NEAR(confidenceOf(evidence), p, 1e-9) << column;
+  }
+}
+
+TEST(Verdict, OfCorrespondencesIsTheDocumentedOne)
+{
+  Evidence evidence;
+  evidence.inliers = 30;
+  evidence.inlier_ratio = 0.1;
+  evidence.rival_inliers = 12;
+  evidence.thickness = 4;
+  evidence.breadth = 2;
+  evidence.log_chance = -4;
+  evidence.mirrored = -20;
+  const double log_odds = -11.23 + 2.65 * std::log(31) + 1.52 * std::log(0.1001) +
+                          2.88 * std::log(31.0 / 15) + 2.90 * std::log(5);
+  const double needed =
+      1 / (1 + std::pow(12.0 / 30, 4)) / (1 + std::pow(0.5, 4)) / (1 + std::exp(-4));
+  EXPECT_NEAR(confidenceOf(evidence), needed / (1 + std::exp(-log_odds)), 1e-9);
 }
 
 /** \brief The confidence where one piece of the evidence is another. */
