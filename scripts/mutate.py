@@ -30,7 +30,8 @@ ROOMS = ["estimation", "judgement", "matching", "math", "registration", "scan"]
 TESTS = {
     "estimation": ["test_stages", "test_estimator", "test_backend_conformance",
                    "test_parameters", "test_estimator_robustness",
-                   "test_real_correspondences", "test_pair_registration"],
+                   "test_real_correspondences", "test_pair_registration",
+                   "test_cloud_check"],
     "judgement": ["test_verdict", "test_cloud_check", "test_free_motion",
                   "test_pair_registration", "test_estimator",
                   "test_backend_conformance"],
