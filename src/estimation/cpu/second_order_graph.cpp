@@ -14,8 +14,8 @@ namespace pcl_flashreg {
 namespace cpu {
 namespace {
 
-/** rief Rows that are scored together against a band of columns, and words in a band: both
- * should stay in the second-level cache while they are matched. */
+/** \brief Rows that are scored together against a band of columns, and words in a band:
+ * both should stay in the second-level cache while they are matched. */
 constexpr std::size_t MOST_ROWS_A_TASK = 512;
 constexpr std::size_t BAND_WORDS = 64 * 1024;
 
