@@ -3,8 +3,6 @@
 
 #include "judgement/cpu/plane_alignment.h"
 
-#include "judgement/cpu/contacts.h"
-
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
@@ -14,7 +12,6 @@
 namespace pcl_flashreg {
 namespace {
 
-constexpr int ROUNDS = 6;
 /** \brief Points of the source that are used at most. */
 constexpr std::size_t POINTS = 400;
 /** \brief Distance of a point from its plane's point, in spacings, in the first round and
@@ -31,17 +28,28 @@ constexpr double STIFFNESS = 0.01;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/** \brief One step of Gauss-Newton: a small turn about the middle of the points, and a
- * shift. */
-void
-step(const std::vector<Contact>& contacts, float softness, RigidFloat& pose)
+} // namespace
+
+Reach
+reachOf(int round)
 {
-  const Eigen::Vector3d middle = middleOf(contacts);
+  const float t = static_cast<float>(round) / (PLANE_ROUNDS - 1);
+  return {POINTS, FIRST_RADIUS + t * (LAST_RADIUS - FIRST_RADIUS), MIN_COSINE};
+}
+
+std::optional<PlaneStep>
+stepOntoPlanes(const std::vector<Contact>& contacts, float spacing)
+{
+  if (contacts.size() < MIN_PLANES)
+    return std::nullopt;
+  const float softness = SOFTNESS * spacing;
+  PlaneStep step;
+  step.middle = middleOf(contacts);
   Matrix6 hessian = Matrix6::Zero();
   Vector6 gradient = Vector6::Zero();
   double spread = 0;
   for (const Contact& contact : contacts) {
-    const Eigen::Vector3d arm = contact.place.cast<double>() - middle;
+    const Eigen::Vector3d arm = contact.place.cast<double>() - step.middle;
     const Vector6 jacobian = jacobianOf(contact, arm);
     const double scaled = contact.residual / softness;
     const double weight = 1 / (1 + scaled * scaled);
@@ -56,30 +64,26 @@ step(const std::vector<Contact>& contacts, float softness, RigidFloat& pose)
   const Eigen::Vector3d turn = motion.head<3>();
   const double angle = turn.norm();
   if (!motion.allFinite() || !(angle > 0))
-    return;
-  const Eigen::Matrix3d rotation =
-      Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  const Eigen::Vector3d shifted =
-      rotation * (pose.translation.cast<double>() - middle) + middle + motion.tail<3>();
-  pose.rotation = (rotation * pose.rotation.cast<double>()).cast<float>();
-  pose.translation = shifted.cast<float>();
+    return PlaneStep();
+  step.rotation = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  step.shift = motion.tail<3>();
+  return step;
 }
-
-} // namespace
 
 Pose
 moveOntoTarget(const SurfacePair& clouds, const Pose& pose)
 {
   RigidFloat moved = toRigidFloat(pose);
   std::vector<Contact> contacts;
-  for (int round = 0; round < ROUNDS; ++round) {
-    const float t = static_cast<float>(round) / (ROUNDS - 1);
-    const float radius = FIRST_RADIUS + t * (LAST_RADIUS - FIRST_RADIUS);
+  for (int round = 0; round < PLANE_ROUNDS; ++round) {
     contacts.clear();
-    findContacts(clouds, moved, {POINTS, radius, MIN_COSINE}, contacts);
-    if (contacts.size() < MIN_PLANES)
+    findContacts(clouds, moved, reachOf(round), contacts);
+    const std::optional<PlaneStep> step = stepOntoPlanes(contacts, clouds.spacing);
+    if (!step)
       break;
-    step(contacts, SOFTNESS * clouds.spacing, moved);
+    const Eigen::Vector3d shifted = *step * moved.translation.cast<double>();
+    moved.rotation = (step->rotation * moved.rotation.cast<double>()).cast<float>();
+    moved.translation = shifted.cast<float>();
   }
   Pose result;
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(result.r) =

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "multiview/joint_judgement.h"
+#include "multiview/votes.h"
+#include "support/thread_pool.h"
+
+namespace pcl_flashreg {
+
+/** \brief Scans, in groups whose scans have poses in one frame. */
+struct Grouping {
+  /** \brief Ascending numbers. */
+  std::vector<std::vector<std::size_t>> groups;
+  MapPoses poses;
+};
+
+/** \brief Joins groups, from scans that are alone, as long as two of them are certain to lie
+ * in some way to each other: the surest first, so that later ones have more pairs to go by
+ * and more clouds to judge them.
+ * \param[in] start the groups to begin with
+ * \param[in] min_confidence of a placement */
+Grouping
+joinGroups(const MapScans& scans,
+           const std::vector<PairVotes>& pairs,
+           Grouping start,
+           double min_confidence,
+           ThreadPool& pool);
+
+/** \brief Takes scans out of their groups that would not be put where they are, if all others
+ * were there already; what only they tied together falls apart.
+ * \return how many */
+std::size_t
+releaseDoubtful(const MapScans& scans,
+                const std::vector<PairVotes>& pairs,
+                Grouping& map,
+                ThreadPool& pool);
+
+} // namespace pcl_flashreg

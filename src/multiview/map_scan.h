@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include "judgement/cpu/surface.h"
+
+#include <pcl_flashreg/result.h>
+#include <pcl_flashreg/scan.h>
+
+#include <Eigen/Geometry>
+
+namespace pcl_flashreg {
+
+/** \brief A scan as the map sees it: a surface about its own middle. Poses within the map are
+ * of this middle, so that they are turns of the scan and places of its middle. */
+struct MapScan {
+  explicit MapScan(const Scan& scan);
+
+  std::size_t
+  size() const
+  {
+    return surface.points.size();
+  }
+
+  Surface surface;
+  /** \brief The middle, in the frame of the scan. */
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  /** \brief Of a sphere about the middle that holds all points. */
+  double radius = 0;
+  double spacing = 0;
+};
+
+Pose
+toPose(const Eigen::Isometry3d& T);
+
+Eigen::Isometry3d
+toIsometry(const Pose& T);
+
+/** \brief Between middles, from a pose between frames. */
+Eigen::Isometry3d
+betweenMiddles(const RigidTransform& T_target_source,
+               const MapScan& target,
+               const MapScan& source);
+
+/** \brief The reverse. */
+RigidTransform
+betweenFrames(const Eigen::Isometry3d& T_target_source,
+              const MapScan& target,
+              const MapScan& source);
+
+/** \brief Angle of a rotation, in radians. */
+double
+angleOf(const Eigen::Matrix3d& rotation);
+
+/** \brief Whether two poses of a scan are the same but for noise and drift. */
+bool
+samePlace(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double spacing);
+
+} // namespace pcl_flashreg

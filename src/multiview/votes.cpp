@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "multiview/votes.h"
+
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_flashreg {
+namespace {
+
+/** \brief The density of agreement by chance (rho), and by how much another supporter counts
+ * than the strongest. */
+constexpr double BY_CHANCE = 0.02, ANOTHER = 0.25;
+
+/** \brief Poses of pairs that are tried as placements of their groups. */
+constexpr std::size_t TRIED = 24;
+
+/** \brief A vote, between the groups. */
+struct GroupVote {
+  double probability;
+  Eigen::Isometry3d T_fixed_moving;
+  /** \brief Where it puts the moving scan. */
+  Eigen::Isometry3d place;
+};
+
+struct GroupVotes {
+  std::size_t moving;
+  double unsure;
+  std::vector<GroupVote> votes;
+};
+
+GroupVotes
+betweenGroups(const PairVotes& pair,
+              const std::vector<bool>& is_moving,
+              const MapPoses& poses)
+{
+  const bool source_moves = is_moving[pair.source];
+  GroupVotes result{source_moves ? pair.source : pair.target, pair.unsure(), {}};
+  const std::size_t fixed = source_moves ? pair.target : pair.source;
+  const Eigen::Isometry3d back = poses[result.moving].inverse(Eigen::Isometry);
+  for (const Vote& vote : pair.votes) {
+    const Eigen::Isometry3d place =
+        poses[fixed] * (source_moves ? vote.T_target_source
+                                     : vote.T_target_source.inverse(Eigen::Isometry));
+    result.votes.push_back({vote.probability, place * back, place});
+  }
+  return result;
+}
+
+/** \brief The pose of the moving group that fits best to where its supporters put its scans,
+ * each by its probability (Horn; by a singular value decomposition). */
+Eigen::Isometry3d
+meanOf(const Eigen::Isometry3d& T_fixed_moving,
+       const std::vector<GroupVotes>& pairs,
+       const MapPoses& poses,
+       double spacing)
+{
+  Eigen::Matrix3d turns = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = from;
+  double sum = 0;
+  for (const GroupVotes& pair : pairs)
+    for (const GroupVote& vote : pair.votes) {
+      if (!samePlace(vote.place, T_fixed_moving * poses[pair.moving], spacing))
+        continue;
+      turns += vote.probability * vote.T_fixed_moving.linear();
+      from += vote.probability * poses[pair.moving].translation();
+      to += vote.probability * vote.place.translation();
+      sum += vote.probability;
+    }
+  if (!(sum > 0))
+    return T_fixed_moving;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+      turns, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d flip = Eigen::Matrix3d::Identity();
+  flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
+  Eigen::Isometry3d mean = Eigen::Isometry3d::Identity();
+  mean.linear() = svd.matrixU() * flip * svd.matrixV().transpose();
+  mean.translation() = (to - mean.linear() * from) / sum;
+  return mean;
+}
+
+Placement
+weigh(const Eigen::Isometry3d& T_fixed_moving,
+      const std::vector<GroupVotes>& pairs,
+      const MapPoses& poses,
+      double spacing)
+{
+  Placement placement{T_fixed_moving, std::log(BY_CHANCE), 0};
+  double strongest = 0, all = 0;
+  for (const GroupVotes& pair : pairs) {
+    const Eigen::Isometry3d place = T_fixed_moving * poses[pair.moving];
+    double agreeing = 0;
+    for (const GroupVote& vote : pair.votes)
+      if (samePlace(vote.place, place, spacing))
+        agreeing += vote.probability;
+    const double gain = std::log(agreeing / BY_CHANCE + pair.unsure);
+    if (gain <= 0) {
+      placement.weight += gain;
+      continue;
+    }
+    ++placement.supporters;
+    strongest = std::max(strongest, gain);
+    all += gain;
+  }
+  placement.weight += ANOTHER * all + (1 - ANOTHER) * strongest;
+  return placement;
+}
+
+} // namespace
+
+double
+PairVotes::unsure() const
+{
+  double sure = 0;
+  for (const Vote& vote : votes)
+    sure += vote.probability;
+  return std::max(1 - sure, 5e-4);
+}
+
+Placements
+countVotes(const std::vector<const PairVotes*>& pairs,
+           const std::vector<bool>& is_moving,
+           const MapPoses& poses,
+           double spacing,
+           std::size_t most)
+{
+  Placements result;
+  std::vector<GroupVotes> between;
+  std::vector<const GroupVote*> tried;
+  for (const PairVotes* pair : pairs)
+    between.push_back(betweenGroups(*pair, is_moving, poses));
+  for (const GroupVotes& pair : between) {
+    result.none += std::log(pair.unsure);
+    for (const GroupVote& vote : pair.votes)
+      tried.push_back(&vote);
+  }
+  std::stable_sort(tried.begin(), tried.end(), [](const auto* a, const auto* b) {
+    return a->probability > b->probability;
+  });
+  tried.resize(std::min(tried.size(), TRIED));
+  std::vector<Placement> placements;
+  for (const GroupVote* vote : tried)
+    placements.push_back(weigh(vote->T_fixed_moving, between, poses, spacing));
+  std::stable_sort(placements.begin(), placements.end(), [](const auto& a, const auto& b) {
+    return a.weight > b.weight;
+  });
+  const Eigen::Isometry3d& some = poses[between.front().moving];
+  for (const Placement& placement : placements)
+    if (result.best.size() < most &&
+        std::none_of(result.best.begin(), result.best.end(), [&](const Placement& other) {
+          return samePlace(
+              placement.T_fixed_moving * some, other.T_fixed_moving * some, spacing);
+        }))
+      result.best.push_back(placement);
+  for (Placement& placement : result.best)
+    placement.T_fixed_moving =
+        meanOf(placement.T_fixed_moving, between, poses, spacing);
+  return result;
+}
+
+} // namespace pcl_flashreg
