@@ -67,8 +67,7 @@ judge(Placement& placement,
       judgement.meetings(ends.fixed, ends.moving, placement.T_fixed_moving);
   placement.T_fixed_moving =
       judgement.moveOntoFixed(meetings, placement.T_fixed_moving);
-  placement.weight +=
-      judgement.agreement(meetings, placement.T_fixed_moving).logOdds();
+  placement.weight += judgement.agreement(meetings, placement.T_fixed_moving).logOdds();
 }
 
 void

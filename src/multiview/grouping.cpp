@@ -219,10 +219,9 @@ belongs(std::size_t scan,
   for (Placement& placement : bond.placements.best)
     judge(placement, ends, scans, poses);
   conclude(bond);
-  return bond.prospect >= 0 &&
-         samePlace(bond.best().T_fixed_moving * poses[scan],
-                   poses[scan],
-                   scans(scan)->spacing);
+  return bond.prospect >= 0 && samePlace(bond.best().T_fixed_moving * poses[scan],
+                                         poses[scan],
+                                         scans(scan)->spacing);
 }
 
 /** \brief Parts of a group that pairs tie together whose most probable pose is the map's. */
@@ -283,8 +282,7 @@ releaseDoubtful(const MapScans& scans,
   std::vector<char> stays(map.poses.size(), 1);
   pool.forEach(stays.size(), [&](std::size_t scan, std::size_t) {
     if (group_of[scan]->size() > 2)
-      stays[scan] =
-          belongs(scan, *group_of[scan], pairs, scans, map.poses) ? 1 : 0;
+      stays[scan] = belongs(scan, *group_of[scan], pairs, scans, map.poses) ? 1 : 0;
   });
   std::size_t released = 0;
   std::vector<std::vector<std::size_t>> groups;

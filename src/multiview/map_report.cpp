@@ -47,20 +47,21 @@ reportOf(const Grouping& map,
   for (const PairVotes& pair : pairs) {
     MapEdge& edge = all[{pair.target, pair.source}];
     const Vote& best = pair.votes.front();
-    edge.T_target_source = betweenFrames(
-        best.T_target_source, *scans(pair.target), *scans(pair.source));
+    edge.T_target_source =
+        betweenFrames(best.T_target_source, *scans(pair.target), *scans(pair.source));
     edge.pair_confidence = best.probability;
     edge.fate = result.scans[pair.target].group == result.scans[pair.source].group
                     ? EdgeFate::Disagrees
                     : EdgeFate::Apart;
   }
   for (const SurfaceEdge& found : edges) {
-    const std::size_t target = found.constraint.target, source = found.constraint.source;
+    const std::size_t target = found.constraint.target,
+                      source = found.constraint.source;
     MapEdge& edge = all[{target, source}];
     edge.fate = EdgeFate::Used;
     edge.agreement = found.agreement;
-    edge.T_target_source = betweenFrames(
-        found.constraint.T_target_source, *scans(target), *scans(source));
+    edge.T_target_source =
+        betweenFrames(found.constraint.T_target_source, *scans(target), *scans(source));
     const auto off = residualOf(found.constraint, map.poses[target], map.poses[source]);
     edge.rotation_residual = off.head<3>().norm();
     edge.translation_residual = off.tail<3>().norm();

@@ -35,8 +35,8 @@ checkRelations(std::size_t count, const std::vector<ScanRelation>& relations)
 {
   std::set<std::pair<std::size_t, std::size_t>> seen;
   for (const ScanRelation& relation : relations) {
-    const std::string pair = std::to_string(relation.target) + " and " +
-                             std::to_string(relation.source);
+    const std::string pair =
+        std::to_string(relation.target) + " and " + std::to_string(relation.source);
     if (relation.target >= relation.source || relation.source >= count)
       throw std::invalid_argument("relation between scans " + pair + ": of " +
                                   std::to_string(count) +
@@ -133,7 +133,8 @@ MultiviewRegistration::MultiviewRegistration(BackendKind backend, unsigned num_t
 }
 
 MultiviewRegistration::~MultiviewRegistration() = default;
-MultiviewRegistration::MultiviewRegistration(MultiviewRegistration&&) noexcept = default;
+MultiviewRegistration::MultiviewRegistration(MultiviewRegistration&&) noexcept =
+    default;
 MultiviewRegistration&
 MultiviewRegistration::operator=(MultiviewRegistration&&) noexcept = default;
 
@@ -205,18 +206,17 @@ MultiviewRegistration::place(std::size_t count,
   for (int round = 0; round < RECONSIDERED; ++round) {
     for (const std::vector<std::size_t>& group : map.groups)
       refineMap(scans, within(group, pairs), group, map.poses, impl_->pool);
-    const std::size_t released =
-        releaseDoubtful(scans, pairs, map, impl_->pool);
+    const std::size_t released = releaseDoubtful(scans, pairs, map, impl_->pool);
     const std::size_t groups = map.groups.size();
-    map = joinGroups(
-        scans, pairs, std::move(map), options.min_confidence, impl_->pool);
-if (released == 0 && map.groups.size() == groups)
+    map = joinGroups(scans, pairs, std::move(map), options.min_confidence, impl_->pool);
+    if (released == 0 && map.groups.size() == groups)
       break;
   }
   timings.grouping = total.milliseconds();
   std::vector<SurfaceEdge> edges;
   for (const std::vector<std::size_t>& group : map.groups)
-    for (SurfaceEdge& edge : refineMap(scans, within(group, pairs), group, map.poses, impl_->pool))
+    for (SurfaceEdge& edge :
+         refineMap(scans, within(group, pairs), group, map.poses, impl_->pool))
       edges.push_back(std::move(edge));
   timings.refinement = total.milliseconds() - timings.grouping;
   MultiviewResult result = reportOf(map, edges, pairs, scans);

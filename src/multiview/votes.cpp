@@ -144,16 +144,18 @@ countVotes(const std::vector<const PairVotes*>& pairs,
   std::vector<Placement> placements;
   for (const GroupVote* vote : tried)
     placements.push_back(weigh(vote->T_fixed_moving, between, poses, spacing));
-  std::stable_sort(placements.begin(), placements.end(), [](const auto& a, const auto& b) {
-    return a.weight > b.weight;
-  });
+  std::stable_sort(placements.begin(),
+                   placements.end(),
+                   [](const auto& a, const auto& b) { return a.weight > b.weight; });
   const Eigen::Isometry3d& some = poses[between.front().moving];
   for (const Placement& placement : placements)
     if (result.best.size() < most &&
-        std::none_of(result.best.begin(), result.best.end(), [&](const Placement& other) {
-          return samePlace(
-              placement.T_fixed_moving * some, other.T_fixed_moving * some, spacing);
-        }))
+        std::none_of(
+            result.best.begin(), result.best.end(), [&](const Placement& other) {
+              return samePlace(placement.T_fixed_moving * some,
+                               other.T_fixed_moving * some,
+                               spacing);
+            }))
       result.best.push_back(placement);
   for (Placement& placement : result.best)
     placement.T_fixed_moving =
