@@ -103,7 +103,7 @@ struct MultiviewOptions {
   /** \brief Of each pair. */
   PairOptions pair;
   /** \brief A scan stays in a group if its confidence is at least this; (0, 1). */
-  double min_confidence = 0.9;
+  double min_confidence = 0.95;
   /** \brief Of more scans only promising pairs are tried. */
   std::size_t all_pairs_up_to = 150;
   /** \brief Whether the scans are in the order in which they were made: each is tried with the

@@ -15,10 +15,8 @@
 namespace pcl_flashreg {
 namespace {
 
-/** \brief By the votes; of a bond with less the clouds are not asked. */
-constexpr double LEAST_PROSPECT = 1;
 /** \brief Logarithm of odds that need not wait for what else may turn out. */
-constexpr double CERTAIN = 8;
+constexpr double CERTAIN = 4;
 /** \brief Poses are optimized when a group has grown by this share. */
 constexpr double GROWN = 0.2;
 
@@ -95,7 +93,7 @@ private:
     pool_.forEach(placements.size(), [&](std::size_t i, std::size_t) {
       judge(placements[i], ends, scans_, map_.poses);
     });
-    conclude(bond);
+    conclude(bond, ends, scans_, map_.poses);
   }
 
   /** \brief In which order bonds are looked at, none if never: those that are certain, then
@@ -103,13 +101,10 @@ private:
   std::optional<double>
   urgencyOf(const Bond& bond) const
   {
-    if (!bond.judged)
-      return bond.prospect > LEAST_PROSPECT
-                 ? std::optional(std::max(bond.urgency, CERTAIN))
-                 : std::nullopt;
     if (bond.prospect < least_odds_)
       return std::nullopt;
-    return bond.prospect < CERTAIN ? bond.prospect : std::max(bond.urgency, CERTAIN);
+    return bond.judged && bond.prospect < CERTAIN ? bond.prospect
+                                                  : std::max(bond.urgency, CERTAIN);
   }
 
   Bonds::iterator
@@ -218,7 +213,7 @@ belongs(std::size_t scan,
   count(bond, ends, scans, poses);
   for (Placement& placement : bond.placements.best)
     judge(placement, ends, scans, poses);
-  conclude(bond);
+  conclude(bond, ends, scans, poses);
   return bond.prospect >= 0 && samePlace(bond.best().T_fixed_moving * poses[scan],
                                          poses[scan],
                                          scans(scan)->spacing);
