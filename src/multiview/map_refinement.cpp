@@ -71,7 +71,8 @@ agreeing(const MapScans& scans, const PairVotes& pair, const MapPoses& poses)
         static_cast<float>(std::max(target->spacing, source->spacing))};
     return SurfaceEdge{
         *constraint,
-        Look(clouds, POINTS, TOLERANCE, MARGIN)(toPose(vote.T_target_source))};
+        Look(clouds, POINTS, TOLERANCE, MARGIN)(toPose(vote.T_target_source)),
+        vote.probability};
   }
   return std::nullopt;
 }
