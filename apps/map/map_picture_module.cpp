@@ -206,7 +206,7 @@ captionOf(const MultiviewResult& result, std::size_t drawn)
   std::string text = std::to_string(result.placed()) + " of " +
                      std::to_string(result.scans.size()) + " scans placed";
   if (groups > 1)
-    text += ", in " + std::to_string(groups) + " groups";
+    text += ", in " + std::to_string(groups) + " maps";
   if (groups > drawn)
     text += ", of which " + std::to_string(drawn) + " are drawn";
   return text;
@@ -230,7 +230,7 @@ draw(const MapDrawing& drawing)
     drawEdges(picture, panel, drawing.result);
     drawLabels(picture, panel, labels, colors);
     if (panels.size() > 1)
-      picture.write("group " + std::to_string(k + 1) + ": " +
+      picture.write("map " + std::to_string(k + 1) + ": " +
                         std::to_string(panel.group.scans.size()) + " scans",
                     panel.left + MARGIN,
                     panel.top,

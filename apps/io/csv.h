@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::io {
 
 /** \brief A line of comma-separated values without its end; what holds a comma or a quote
  * is quoted. */
@@ -22,4 +22,4 @@ splitCsv(std::string_view line);
 std::string
 toText(double value);
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::io

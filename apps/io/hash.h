@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::io {
 
 /** \brief 64-bit FNV-1a: tells damaged and changed bytes apart,
  * nothing that an adversary made. */
@@ -32,4 +32,4 @@ toHex(std::uint64_t value)
   return text;
 }
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::io

@@ -6,7 +6,7 @@
 #include <array>
 #include <charconv>
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::io {
 
 std::string
 joinCsv(const std::vector<std::string>& cells)
@@ -54,4 +54,4 @@ toText(double value)
   return {digits.data(), end.ptr};
 }
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::io

@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::batch {
 namespace {
 
 /** \brief What the launchers of Open MPI, MPICH, Intel MPI, MVAPICH and Slurm leave in the
@@ -58,4 +58,4 @@ Ranks::abort(int status) const
   return status;
 }
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::batch

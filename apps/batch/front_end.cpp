@@ -3,13 +3,13 @@
 
 #include "front_end.h"
 
-#include "hash.h"
+#include "../io/hash.h"
 
 #include <pcl_flashreg/pair_registration.h>
 
 #include <vector>
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::batch {
 namespace {
 
 /** \brief A wavy sheet and a wall: 2000 points with edges, bends and flat parts. */
@@ -46,7 +46,7 @@ frontEndFingerprint()
     input.viewpoint = {x, 1.3 - x, 1.9 + 0.2 * x};
     bytes += registration.makeScan(input, 0.03, ScanContent::Surface).serialize();
   }
-  return toHex(hashOf(bytes));
+  return io::toHex(io::hashOf(bytes));
 }
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::batch

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::batch {
 
 /** \brief What the front end makes of a small made cloud, as a hash: two builds with the
  * same fingerprint compute the same features, and one whose voxel grid, normals or
@@ -13,4 +13,4 @@ namespace pcl_flashreg::evaluate {
 std::string
 frontEndFingerprint();
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::batch

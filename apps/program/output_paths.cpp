@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
-#include "options.h"
+#include "output_paths.h"
+
+#include "program.h"
 
 #include <filesystem>
 
 namespace fs = std::filesystem;
 
-namespace pcl_flashreg::align {
-namespace {
-
-std::vector<std::string>
-inputPaths(const Options& options)
-{
-  std::vector<std::string> paths = {options.source, options.target, options.guess};
-  for (const auto& more : {options.correspondences, options.features})
-    paths.insert(paths.end(), more.begin(), more.end());
-  return paths;
-}
+namespace pcl_flashreg::program {
 
 bool
 isSameFile(const std::string& a, const std::string& b)
@@ -29,17 +21,15 @@ isSameFile(const std::string& a, const std::string& b)
          fs::weakly_canonical(fs::absolute(b), error);
 }
 
-} // namespace
-
 void
-checkOutputPaths(const Options& options)
+checkOutputPaths(const std::vector<std::string>& outputs,
+                 const std::vector<std::string>& inputs)
 {
   std::vector<std::string> earlier;
-  for (const std::string& path :
-       {options.output, options.transform, options.json, options.snapshot}) {
+  for (const std::string& path : outputs) {
     if (path.empty() || path == "-")
       continue;
-    for (const std::string& input : inputPaths(options))
+    for (const std::string& input : inputs)
       if (!input.empty() && isSameFile(path, input))
         throw UsageError(path + ": would be overwritten, but it is an input");
     for (const std::string& other : earlier)
@@ -54,4 +44,4 @@ checkOutputPaths(const Options& options)
   }
 }
 
-} // namespace pcl_flashreg::align
+} // namespace pcl_flashreg::program

@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::batch {
 namespace {
 
 constexpr std::size_t WIDTH = 30;
@@ -28,14 +28,18 @@ clockText(double seconds)
 } // namespace
 
 std::string
-progressText(std::size_t done, std::size_t total, double seconds, bool with_bar)
+progressText(std::size_t done,
+             std::size_t total,
+             double seconds,
+             bool with_bar,
+             const std::string& things)
 {
   std::string text;
   if (with_bar) {
     const std::size_t filled = total == 0 ? WIDTH : WIDTH * done / total;
     text = "[" + std::string(filled, '#') + std::string(WIDTH - filled, '.') + "]  ";
   }
-  text += std::to_string(done) + "/" + std::to_string(total) + " pairs";
+  text += std::to_string(done) + "/" + std::to_string(total) + ' ' + things;
   if (done == 0 || seconds <= 0)
     return text;
   const double rate = static_cast<double>(done) / seconds;
@@ -44,8 +48,11 @@ progressText(std::size_t done, std::size_t total, double seconds, bool with_bar)
   return text + of_rate + clockText(static_cast<double>(total - done) / rate) + " left";
 }
 
-Progress::Progress(std::size_t total, bool quiet)
-    : total_(total), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1)
+Progress::Progress(std::size_t total, const std::string& things, bool quiet)
+    : total_(total),
+      things_(things),
+      quiet_(quiet),
+      terminal_(::isatty(STDERR_FILENO) == 1)
 {
 }
 
@@ -70,10 +77,14 @@ void
 Progress::print(Clock::time_point now)
 {
   printed_ = now;
-  const std::string text = progressText(
-      done_, total_, std::chrono::duration<double>(now - start_).count(), terminal_);
+  const std::string text =
+      progressText(done_,
+                   total_,
+                   std::chrono::duration<double>(now - start_).count(),
+                   terminal_,
+                   things_);
   // The terminal's line is cleared to its end: the text before may have been longer.
   std::fprintf(stderr, terminal_ ? "\r%s\x1b[K" : "%s\n", text.c_str());
 }
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::batch

@@ -5,7 +5,7 @@
 
 #include "ranks.h"
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::batch {
 
 Ranks::Ranks() = default;
 Ranks::~Ranks() = default;
@@ -21,4 +21,4 @@ Ranks::abort(int status) const
   return status;
 }
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::batch

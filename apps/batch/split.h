@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::batch {
 
 /** \brief Part `part` (from 0) of `parts` of a list, in one piece: neighbours in the list
  * mostly share clouds, and each part is to compute the features of few. */
@@ -20,4 +20,4 @@ partOf(const std::vector<Item>& items, std::size_t part, std::size_t parts)
           items.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::batch

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace pcl_flashreg::evaluate {
+namespace pcl_flashreg::batch {
 
 /** \brief The processes that share the work: one, or as many as mpirun started. A program
  * that was not started by mpirun (srun ...) does not touch MPI at all. */
@@ -46,4 +46,4 @@ private:
   bool started_ = false;
 };
 
-} // namespace pcl_flashreg::evaluate
+} // namespace pcl_flashreg::batch
