@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl_flashreg::align {
+namespace pcl_flashreg::drawing {
 namespace {
 
 /** \brief The pixels from a - r to a + r that lie in [0, size). */
@@ -110,4 +110,4 @@ Canvas::halved() const
   return half;
 }
 
-} // namespace pcl_flashreg::align
+} // namespace pcl_flashreg::drawing

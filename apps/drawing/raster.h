@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl_flashreg::align {
+namespace pcl_flashreg::drawing {
 
 struct Color {
   std::uint8_t red, green, blue;
@@ -34,6 +34,12 @@ public:
   pixels() const
   {
     return colors_.data();
+  }
+
+  void
+  setPixel(int x, int y, Color color)
+  {
+    colors_[at(x, y)] = color;
   }
 
   /** \brief A disc that faces the viewer, where nothing nearer has been drawn.
@@ -71,4 +77,4 @@ private:
   std::vector<float> depths_;
 };
 
-} // namespace pcl_flashreg::align
+} // namespace pcl_flashreg::drawing

@@ -5,22 +5,38 @@
 
 #include "raster.h"
 
+#include <Eigen/Core>
 #include <cairo.h>
 
 #include <memory>
 #include <string>
 
-namespace pcl_flashreg::align {
+namespace pcl_flashreg::drawing {
 
-/** \brief Canvases side by side, with text on top of them. */
+/** \brief Canvases, with lines and text on top of them. */
 class Picture {
 public:
   /** \throws std::runtime_error if there is not enough memory */
   Picture(int width, int height, Color background);
 
-  /** \brief Puts a canvas as high as the picture into it, its left edge at column x. */
+  /** \brief Puts a canvas, all of which has room, into the picture.
+   * \param[in] x, y the pixel that its upper left one covers */
   void
-  paste(const Canvas& canvas, int x);
+  paste(const Canvas& canvas, int x, int y);
+
+  /** \brief A straight line with round ends; a dot where these are one.
+   * \param[in] width in pixels
+   * \param[in] opacity (0, 1] */
+  void
+  drawLine(const Eigen::Vector2d& from,
+           const Eigen::Vector2d& to,
+           double width,
+           Color color,
+           double opacity = 1);
+
+  /** \brief How far write() would get. */
+  double
+  widthOf(const std::string& text, double size);
 
   /** \brief Writes a word with a halo in which it can be read on top of points, too.
    * \param[in] x, y left end of the base line, in pixels
@@ -57,10 +73,10 @@ private:
   };
 
   void
-  setColor(Color color);
+  setColor(Color color, double opacity = 1);
 
   std::unique_ptr<cairo_surface_t, Release> surface_;
   std::unique_ptr<cairo_t, Release> context_;
 };
 
-} // namespace pcl_flashreg::align
+} // namespace pcl_flashreg::drawing

@@ -7,7 +7,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace pcl_flashreg::align {
+namespace pcl_flashreg::drawing {
 namespace {
 
 void
@@ -52,17 +52,21 @@ Picture::Picture(int width, int height, Color background)
 }
 
 void
-Picture::setColor(Color color)
+Picture::setColor(Color color, double opacity)
 {
-  cairo_set_source_rgb(
-      context_.get(), color.red / 255.0, color.green / 255.0, color.blue / 255.0);
+  cairo_set_source_rgba(context_.get(),
+                        color.red / 255.0,
+                        color.green / 255.0,
+                        color.blue / 255.0,
+                        opacity);
 }
 
 void
-Picture::paste(const Canvas& canvas, int x)
+Picture::paste(const Canvas& canvas, int x, int y)
 {
   cairo_surface_flush(surface_.get());
-  unsigned char* bytes = cairo_image_surface_get_data(surface_.get());
+  unsigned char* bytes = cairo_image_surface_get_data(surface_.get()) +
+                         y * cairo_image_surface_get_stride(surface_.get());
   const Color* color = canvas.pixels();
   for (int row = 0; row < canvas.height(); ++row) {
     auto* pixel = reinterpret_cast<std::uint32_t*>(bytes) + x;
@@ -72,6 +76,31 @@ Picture::paste(const Canvas& canvas, int x)
     bytes += cairo_image_surface_get_stride(surface_.get());
   }
   cairo_surface_mark_dirty(surface_.get());
+}
+
+void
+Picture::drawLine(const Eigen::Vector2d& from,
+                  const Eigen::Vector2d& to,
+                  double width,
+                  Color color,
+                  double opacity)
+{
+  cairo_t* context = context_.get();
+  setColor(color, opacity);
+  cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_width(context, width);
+  cairo_move_to(context, from.x(), from.y());
+  cairo_line_to(context, to.x(), to.y());
+  cairo_stroke(context);
+}
+
+double
+Picture::widthOf(const std::string& text, double size)
+{
+  cairo_set_font_size(context_.get(), size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(context_.get(), text.c_str(), &extents);
+  return extents.x_advance;
 }
 
 double
@@ -100,4 +129,4 @@ Picture::encode() const
   return png;
 }
 
-} // namespace pcl_flashreg::align
+} // namespace pcl_flashreg::drawing
