@@ -103,8 +103,12 @@ struct MultiviewOptions {
   /** \brief Of each pair. */
   PairOptions pair;
   /** \brief A scan stays in a group if its confidence is at least this; (0, 1). */
-  double min_confidence = 0.9;
-  /** \brief Of more scans only promising pairs are tried. */
+  double min_confidence = 0.95;
+  /** \brief Each scan is tried with so many others at first, those that are most like it by their
+   * descriptors; >= 1. */
+  std::size_t alike = 12;
+  /** \brief Up to so many scans, all pairs of scans that the map does not tie to each other are
+   * tried after that; of more, some rounds of as many again. */
   std::size_t all_pairs_up_to = 150;
   /** \brief Whether the scans are in the order in which they were made: each is tried with the
    * next few in any case. */
@@ -118,9 +122,10 @@ struct MultiviewOptions {
 /** \brief Registers any number of scans with each other, in any order, without odometry or
  * guess: multiway registration.
  *
- * All pairs are registered, and each keeps its rivals. Groups of scans then grow together
- * where pairs vouch for each other and the clouds of both groups, all of them, agree; poses
- * come from a graph of all pairs whose surfaces touch (docs/method.md).
+ * Pairs are registered, those first that look alike, and each keeps its rivals. Groups of
+ * scans then grow together where pairs vouch for each other and the clouds of both groups,
+ * all of them, agree; poses come from a graph of all pairs that agree with the map. What is
+ * not tied then is tried with all others (docs/method.md).
  *
  * The same result to the last bit on any number of threads; the order of the scans is that of
  * their numbers.
@@ -145,14 +150,23 @@ public:
   static std::vector<ScanPair>
   allPairs(std::size_t scans);
 
-  /** \brief The pairs that are worth a try: all, while they are few; of more scans than
-   * MultiviewOptions::all_pairs_up_to those whose descriptors are most alike, and neighbours in
-   * a sequence.
-   * \param[in] count number of scans */
+  /** \brief The pairs to begin with: each scan with those that are most like it.
+   * \param[in] count number of scans
+   * \throws std::invalid_argument if an option is out of range */
   std::vector<ScanPair>
   choosePairs(std::size_t count,
               const ScanSource& scans,
-              const MultiviewOptions& options = {}) const;
+              const MultiviewOptions& options = {});
+
+  /** \brief The pairs to go on with: those that have not been tried, of scans that the map does
+   * not tie to each other. None where there is nothing left to do.
+   * \param[in] tried all so far
+   * \param[in] map made from them */
+  std::vector<ScanPair>
+  choosePairs(const ScanSource& scans,
+              const std::vector<ScanRelation>& tried,
+              const MultiviewResult& map,
+              const MultiviewOptions& options = {});
 
   /** \brief Registers pairs, one a thread.
    * \return in the order of the pairs

@@ -15,6 +15,9 @@ namespace {
  * than the strongest. */
 constexpr double BY_CHANCE = 0.02, ANOTHER = 0.25;
 
+/** \brief Votes less than the best's that no cloud makes good. */
+constexpr double WITHOUT_A_CHANCE = 20;
+
 /** \brief Poses of pairs that are tried as placements of their groups. */
 constexpr std::size_t TRIED = 24;
 
@@ -88,7 +91,9 @@ weigh(const Eigen::Isometry3d& T_fixed_moving,
       const MapPoses& poses,
       double spacing)
 {
-  Placement placement{T_fixed_moving, std::log(BY_CHANCE), 0};
+  Placement placement;
+  placement.T_fixed_moving = T_fixed_moving;
+  placement.votes = std::log(BY_CHANCE);
   double strongest = 0, all = 0;
   for (const GroupVotes& pair : pairs) {
     const Eigen::Isometry3d place = T_fixed_moving * poses[pair.moving];
@@ -98,14 +103,14 @@ weigh(const Eigen::Isometry3d& T_fixed_moving,
         agreeing += vote.probability;
     const double gain = std::log(agreeing / BY_CHANCE + pair.unsure);
     if (gain <= 0) {
-      placement.weight += gain;
+      placement.votes += gain;
       continue;
     }
     ++placement.supporters;
     strongest = std::max(strongest, gain);
     all += gain;
   }
-  placement.weight += ANOTHER * all + (1 - ANOTHER) * strongest;
+  placement.votes += ANOTHER * all + (1 - ANOTHER) * strongest;
   return placement;
 }
 
@@ -144,16 +149,19 @@ countVotes(const std::vector<const PairVotes*>& pairs,
   std::vector<Placement> placements;
   for (const GroupVote* vote : tried)
     placements.push_back(weigh(vote->T_fixed_moving, between, poses, spacing));
-  std::stable_sort(placements.begin(), placements.end(), [](const auto& a, const auto& b) {
-    return a.weight > b.weight;
-  });
+  std::stable_sort(placements.begin(),
+                   placements.end(),
+                   [](const auto& a, const auto& b) { return a.votes > b.votes; });
   const Eigen::Isometry3d& some = poses[between.front().moving];
   for (const Placement& placement : placements)
     if (result.best.size() < most &&
-        std::none_of(result.best.begin(), result.best.end(), [&](const Placement& other) {
-          return samePlace(
-              placement.T_fixed_moving * some, other.T_fixed_moving * some, spacing);
-        }))
+        placement.votes > placements.front().votes - WITHOUT_A_CHANCE &&
+        std::none_of(
+            result.best.begin(), result.best.end(), [&](const Placement& other) {
+              return samePlace(placement.T_fixed_moving * some,
+                               other.T_fixed_moving * some,
+                               spacing);
+            }))
       result.best.push_back(placement);
   for (Placement& placement : result.best)
     placement.T_fixed_moving =

@@ -34,7 +34,10 @@ struct PairVotes {
 struct Placement {
   Eigen::Isometry3d T_fixed_moving = Eigen::Isometry3d::Identity();
   /** \brief Logarithm of how likely it is, by the votes; only differences count. */
-  double weight = 0;
+  double votes = 0;
+  /** \brief JointAgreement::harmony() on the surfaces; the most it can be, until the clouds
+   * were asked. */
+  double harmony = 0;
   /** \brief Pairs that speak for it. */
   std::size_t supporters = 0;
 };
@@ -42,7 +45,7 @@ struct Placement {
 struct Placements {
   /** \brief The likeliest first, each another one. */
   std::vector<Placement> best;
-  /** \brief The weight of there being none that any pair speaks for. */
+  /** \brief The votes for there being none that any pair speaks for. */
   double none = 0;
 };
 
