@@ -3,11 +3,12 @@
 
 // Results: rows, files, sums and what a killed run leaves.
 
-#include "evaluate/results/csv.h"
+#include "io/csv.h"
 #include "evaluate/results/report.h"
 #include "evaluate/run/parts.h"
-#include "evaluate/run/progress.h"
-#include "evaluate/run/split.h"
+#include "batch/parts.h"
+#include "batch/progress.h"
+#include "batch/split.h"
 #include "evaluate_support.h"
 #include "support/foreign_locale.h"
 
@@ -86,10 +87,10 @@ protected:
 TEST_F(EvaluateResults, cellsSurviveACsvLine)
 {
   const std::vector<std::string> cells = {"", "a,b", "say \"x\"", "plain", ""};
-  EXPECT_EQ(splitCsv(joinCsv(cells)), cells);
-  EXPECT_EQ(joinCsv({"1", "x"}), "1,x");
-  EXPECT_EQ(toText(0.1), "0.1");
-  EXPECT_EQ(std::stod(toText(1.0 / 3)), 1.0 / 3);
+  EXPECT_EQ(io::splitCsv(io::joinCsv(cells)), cells);
+  EXPECT_EQ(io::joinCsv({"1", "x"}), "1,x");
+  EXPECT_EQ(io::toText(0.1), "0.1");
+  EXPECT_EQ(std::stod(io::toText(1.0 / 3)), 1.0 / 3);
 }
 
 TEST_F(EvaluateResults, filesHoldEverything)
@@ -185,16 +186,16 @@ TEST_F(EvaluateResults, badRowsNameFileAndLine)
 TEST_F(EvaluateResults, partsOfRanksAreFoundWhateverTheirNumber)
 {
   writeResults(path("r.csv"), results(0, 1));
-  writeResults(partPath(path("r.csv"), 0), results(2, 3));
-  writeResults(partPath(path("r.csv"), 17), results(1, 2));
+  writeResults(batch::partPath(path("r.csv"), RANK, 0), results(2, 3));
+  writeResults(batch::partPath(path("r.csv"), RANK, 17), results(1, 2));
   write("r.csv.rank17.bak", "not ours");
   const Results all = readWithParts(path("r.csv"), config_);
   writeResults(path("all.csv"), all);
   writeResults(path("whole.csv"), results(0, 3));
   EXPECT_EQ(read("all.csv"), read("whole.csv"));
   removeParts(path("r.csv"));
-  EXPECT_FALSE(fs::exists(partPath(path("r.csv"), 17)));
-  EXPECT_FALSE(fs::exists(timesPath(partPath(path("r.csv"), 17))));
+  EXPECT_FALSE(fs::exists(batch::partPath(path("r.csv"), RANK, 17)));
+  EXPECT_FALSE(fs::exists(timesPath(batch::partPath(path("r.csv"), RANK, 17))));
   EXPECT_TRUE(fs::exists(path("r.csv.rank17.bak")));
   EXPECT_EQ(readWithParts(path("r.csv"), config_).records.size(), 2u);
 }
@@ -207,9 +208,9 @@ TEST_F(EvaluateResults, otherSettingsAreNotGoneOnWith)
             path("r.csv") + ": was made with other settings: leaf was 0.05, is 0.06");
   config_["leaf"] = 0.05;
   config_["more"] = 1;
-  EXPECT_EQ(difference(results(0, 1).config, config_), "");
-  EXPECT_EQ(difference({{"a", 1}}, {{"a", 1}, {"b", 2}}), "b was not set, is 2");
-  EXPECT_EQ(difference({{"a", 1}, {"b", 2}}, {{"a", 1}}), "b was 2, is not set");
+  EXPECT_EQ(batch::difference(results(0, 1).config, config_), "");
+  EXPECT_EQ(batch::difference({{"a", 1}}, {{"a", 1}, {"b", 2}}), "b was not set, is 2");
+  EXPECT_EQ(batch::difference({{"a", 1}, {"b", 2}}, {{"a", 1}}), "b was 2, is not set");
 }
 
 TEST_F(EvaluateResults, shardsMakeTheWhole)
@@ -314,10 +315,12 @@ TEST_F(EvaluateResults, areTheSameInEveryLocale)
 
 TEST(EvaluateProgress, tellsRateAndTimeLeft)
 {
-  EXPECT_EQ(progressText(40, 100, 20, false), "40/100 pairs  2/s  0:30 left");
-  EXPECT_EQ(progressText(1, 7201, 1, false), "1/7201 pairs  1/s  2:00:00 left");
-  EXPECT_EQ(progressText(0, 100, 0, false), "0/100 pairs");
-  EXPECT_EQ(progressText(50, 100, 50, true),
+  EXPECT_EQ(batch::progressText(40, 100, 20, false, "pairs"),
+            "40/100 pairs  2/s  0:30 left");
+  EXPECT_EQ(batch::progressText(1, 7201, 1, false, "pairs"),
+            "1/7201 pairs  1/s  2:00:00 left");
+  EXPECT_EQ(batch::progressText(0, 100, 0, false, "pairs"), "0/100 pairs");
+  EXPECT_EQ(batch::progressText(50, 100, 50, true, "pairs"),
             "[###############...............]  50/100 pairs  1/s  0:50 left");
 }
 
@@ -327,12 +330,12 @@ TEST(EvaluateSplit, partsAreTheWholeInOrder)
   for (int i = 0; i < 17; ++i)
     items[static_cast<std::size_t>(i)] = i;
   for (std::size_t part = 0; part < 5; ++part) {
-    const auto some = partOf(items, part, 5);
+    const auto some = batch::partOf(items, part, 5);
     EXPECT_GE(some.size(), 3u);
     joined.insert(joined.end(), some.begin(), some.end());
   }
   EXPECT_EQ(joined, items);
-  EXPECT_TRUE(partOf(std::vector<int>{1}, 0, 2).empty());
+  EXPECT_TRUE(batch::partOf(std::vector<int>{1}, 0, 2).empty());
 }
 
 } // namespace

@@ -30,14 +30,14 @@ leftOut(std::size_t count)
 void
 noteLeftOut(const std::string& path,
             const LeftOutPoints& left_out,
-            const Progress& progress)
+            const Messages& messages)
 {
   if (left_out.repeated > 0)
-    progress.note(path + ": " + leftOut(left_out.repeated) +
+    messages.note(path + ": " + leftOut(left_out.repeated) +
                   "in one place, most of them at " + vectorOf(left_out.place) +
                   ": beams without a return?");
   if (left_out.stray > 0)
-    progress.note(path + ": " + leftOut(left_out.stray) +
+    messages.note(path + ": " + leftOut(left_out.stray) +
                   "beyond all others by orders of magnitude");
 }
 
@@ -45,7 +45,7 @@ void
 noteViewpoint(const InputCloud& cloud,
               const Scan& scan,
               bool stated,
-              const Progress& progress)
+              const Messages& messages)
 {
   if (!stated || scan.empty() || scan.viewpointSource() == ViewpointSource::Stated)
     return;
@@ -53,10 +53,10 @@ noteViewpoint(const InputCloud& cloud,
   const std::string not_seen =
       cloud.path + ": its points were not seen from its viewpoint, " + vectorOf(place);
   if (scan.viewpointSource() == ViewpointSource::Points)
-    progress.note(not_seen + ", but from about " + vectorOf(*scan.viewpoint()) +
+    messages.note(not_seen + ", but from about " + vectorOf(*scan.viewpoint()) +
                   ", by how they lie: that is used");
   else
-    progress.note(not_seen + ", nor from any one place: none is used");
+    messages.note(not_seen + ", nor from any one place: none is used");
 }
 
 /** \brief Smallest, middle and largest standard deviation of the keypoints along their
@@ -78,11 +78,11 @@ spreadOf(const Scan& scan)
 }
 
 void
-noteFlatness(const std::string& path, const Scan& scan, const Progress& progress)
+noteFlatness(const std::string& path, const Scan& scan, const Messages& messages)
 {
   constexpr double FLAT = 0.05;
   if (!scan.empty() && spreadOf(scan)[0] < FLAT * scan.spacing())
-    progress.note(path +
+    messages.note(path +
                   ": is flat: all its points lie in one plane, in which they can "
                   "slide and turn; such clouds hold no pose in space");
 }
@@ -156,7 +156,8 @@ estimatesOf(const Inputs& inputs, const PairResult& result)
   if (result.source_estimate && result.target_estimate)
     return Estimates{*result.source_estimate, *result.target_estimate};
   try {
-    return Estimates{resolutionOf(*inputs.source), resolutionOf(*inputs.target)};
+    return Estimates{io::resolutionOf(*inputs.source),
+                     io::resolutionOf(*inputs.target)};
   }
   catch (const std::invalid_argument&) {
     return std::nullopt;
@@ -164,7 +165,7 @@ estimatesOf(const Inputs& inputs, const PairResult& result)
 }
 
 void
-noteUnits(const Inputs& inputs, const PairResult& result, const Progress& progress)
+noteUnits(const Inputs& inputs, const PairResult& result, const Messages& messages)
 {
   constexpr double FAR_APART = 5;
   const std::optional<Estimates> estimates = estimatesOf(inputs, result);
@@ -175,7 +176,7 @@ noteUnits(const Inputs& inputs, const PairResult& result, const Progress& progre
                          extentOf(*inputs.target, result.target_left_out);
   if (std::abs(std::log(resolutions)) > std::log(FAR_APART) ||
       lookLikeTwoUnits(resolutions, extents))
-    progress.note("the source by itself would be seen at a resolution of " +
+    messages.note("the source by itself would be seen at a resolution of " +
                   detail::toText(estimates->source) + ", the target at " +
                   detail::toText(estimates->target) + ": are both in the same unit?");
 }
@@ -186,24 +187,24 @@ void
 noteDoubts(const Options& options,
            const Inputs& inputs,
            const PairResult& result,
-           const Progress& progress)
+           const Messages& messages)
 {
   if (!inputs.source || !inputs.target)
     return;
-  noteLeftOut(inputs.source->path, result.source_left_out, progress);
-  noteLeftOut(inputs.target->path, result.target_left_out, progress);
+  noteLeftOut(inputs.source->path, result.source_left_out, messages);
+  noteLeftOut(inputs.target->path, result.target_left_out, messages);
   if (result.source.empty() || result.target.empty())
     return;
   noteViewpoint(
-      *inputs.source, result.source, options.source_viewpoint_known, progress);
+      *inputs.source, result.source, options.source_viewpoint_known, messages);
   noteViewpoint(
-      *inputs.target, result.target, options.target_viewpoint_known, progress);
+      *inputs.target, result.target, options.target_viewpoint_known, messages);
   if (result.pose.converged)
     return;
-  noteFlatness(inputs.source->path, result.source, progress);
-  noteFlatness(inputs.target->path, result.target, progress);
+  noteFlatness(inputs.source->path, result.source, messages);
+  noteFlatness(inputs.target->path, result.target, messages);
   if (!inputs.source_features && !inputs.correspondences)
-    noteUnits(inputs, result, progress);
+    noteUnits(inputs, result, messages);
 }
 
 } // namespace pcl_flashreg::align

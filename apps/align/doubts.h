@@ -4,7 +4,6 @@
 #pragma once
 
 #include "inputs.h"
-#include "progress.h"
 
 #include <pcl_flashreg/pair_registration.h>
 
@@ -17,6 +16,6 @@ void
 noteDoubts(const Options& options,
            const Inputs& inputs,
            const PairResult& result,
-           const Progress& progress);
+           const Messages& messages);
 
 } // namespace pcl_flashreg::align

@@ -6,67 +6,29 @@
 #include "../io/cloud_io.h"
 #include "../io/error.h"
 #include "../io/file.h"
-#include "../io/scan_input.h"
 #include "../io/transform_io.h"
-
-#include <pcl_flashreg/pair_registration.h>
 
 namespace pcl_flashreg::align {
 namespace {
 
 using io::InputError;
 
-io::Cloud
-readCloud(const std::string& path, std::size_t bin_fields, const Progress& progress)
+void
+passOnNotes(const std::string& path, const io::Cloud& cloud, const Messages& messages)
 {
-  io::Cloud cloud = io::readCloud(path, bin_fields);
   for (const std::string& note : cloud.notes)
-    progress.note(path + ": " + note);
-  return cloud;
+    messages.note(path + ": " + note);
 }
 
 InputCloud
 readInputCloud(const std::string& path,
                const Options& options,
-               const Progress& progress)
+               const Messages& messages)
 {
-  progress.say("reading " + path);
-  InputCloud input;
-  input.path = path;
-  input.cloud = readCloud(path, options.bin_fields, progress);
-  try {
-    input.xyz = io::coordinates(input.cloud);
-  }
-  catch (const InputError& error) {
-    throw InputError(path + ": " + error.what());
-  }
+  messages.say("reading " + path);
+  InputCloud input = io::readInputCloud(path, options.bin_fields);
+  passOnNotes(path, input.cloud, messages);
   return input;
-}
-
-/** \brief Three finite points, not all in one place, are the least to find a pose from.
- */
-void
-checkPoints(const InputCloud& input)
-{
-  std::size_t finite = 0;
-  Eigen::Vector3d first;
-  bool apart = false;
-  for (const auto& p : input.xyz.colwise()) {
-    if (!p.allFinite())
-      continue;
-    if (finite++ == 0)
-      first = p;
-    apart = apart || p != first;
-  }
-  const std::string of =
-      " of its " + std::to_string(input.xyz.cols()) + " points have finite coordinates";
-  if (finite == 0)
-    throw InputError(input.path + ": none" + of);
-  if (finite < 3)
-    throw InputError(input.path + ": only " + std::to_string(finite) + of +
-                     ", 3 are needed at least");
-  if (!apart)
-    throw InputError(input.path + ": all its points lie in one place");
 }
 
 io::NumberTable
@@ -110,9 +72,10 @@ descriptorField(const io::Cloud& cloud)
 }
 
 InputFeatures
-readFeatures(const std::string& path, const InputCloud& input, const Progress& progress)
+readFeatures(const std::string& path, const InputCloud& input, const Messages& messages)
 {
-  const io::Cloud cloud = readCloud(path, 0, progress);
+  const io::Cloud cloud = io::readCloud(path);
+  passOnNotes(path, cloud, messages);
   const io::Field* field = descriptorField(cloud);
   if (field == nullptr)
     throw InputError(path +
@@ -133,34 +96,27 @@ readFeatures(const std::string& path, const InputCloud& input, const Progress& p
 
 } // namespace
 
-double
-resolutionOf(const InputCloud& cloud)
-{
-  const ScanInput<double> input = io::scanInput(cloud.cloud, cloud.xyz);
-  return PairRegistration(BackendKind::Cpu, 1).chooseResolution(input, input);
-}
-
 Inputs
-readInputs(const Options& options, const Progress& progress)
+readInputs(const Options& options, const Messages& messages)
 {
   Inputs inputs;
   if (!options.guess.empty())
     inputs.guess = io::parseFile(options.guess, io::parseTransform);
   if (!options.source.empty())
-    inputs.source = readInputCloud(options.source, options, progress);
+    inputs.source = readInputCloud(options.source, options, messages);
   if (!options.target.empty())
-    inputs.target = readInputCloud(options.target, options, progress);
+    inputs.target = readInputCloud(options.target, options, messages);
   if (!options.correspondences.empty()) {
     inputs.correspondences = readCorrespondences(options.correspondences, inputs);
     return inputs;
   }
-  checkPoints(*inputs.source);
-  checkPoints(*inputs.target);
+  io::checkPoints(*inputs.source);
+  io::checkPoints(*inputs.target);
   if (!options.features.empty()) {
     inputs.source_features =
-        readFeatures(options.features[0], *inputs.source, progress);
+        readFeatures(options.features[0], *inputs.source, messages);
     inputs.target_features =
-        readFeatures(options.features[1], *inputs.target, progress);
+        readFeatures(options.features[1], *inputs.target, messages);
     if (inputs.source_features->dimension != inputs.target_features->dimension)
       throw InputError(options.features[1] +
                        ": its descriptors have another length than "

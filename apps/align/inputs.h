@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include "../io/cloud.h"
 #include "../io/correspondence_io.h"
+#include "../io/input_cloud.h"
+#include "../program/messages.h"
 #include "options.h"
-#include "progress.h"
 
 #include <pcl_flashreg/result.h>
 
@@ -15,17 +15,8 @@
 
 namespace pcl_flashreg::align {
 
-/** \brief A cloud as it was read, and its coordinates. */
-struct InputCloud {
-  std::string path;
-  io::Cloud cloud;
-  Eigen::Matrix3Xd xyz;
-};
-
-/** \brief What the cloud by itself would be seen at.
- * \throws std::invalid_argument if it has fewer than two distinct finite points */
-double
-resolutionOf(const InputCloud& cloud);
+using io::InputCloud;
+using program::Messages;
 
 /** \brief Descriptors, one a point of a cloud. */
 struct InputFeatures {
@@ -49,6 +40,6 @@ struct Inputs {
  * \throws UsageError if clouds are missing that index pairs need
  */
 Inputs
-readInputs(const Options& options, const Progress& progress);
+readInputs(const Options& options, const Messages& messages);
 
 } // namespace pcl_flashreg::align

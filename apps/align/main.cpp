@@ -9,7 +9,6 @@
 #include "inputs.h"
 #include "options.h"
 #include "pipeline.h"
-#include "progress.h"
 #include "report.h"
 #include "snapshot.h"
 #include "viewer.h"
@@ -28,14 +27,14 @@ enum Verdict { TRUSTED = 0, NOT_TRUSTED = 1 };
 
 /** \brief The source in the target's frame, with all its fields. */
 io::Cloud
-alignedCloud(const Inputs& inputs, const RigidTransform& pose, const Progress& progress)
+alignedCloud(const Inputs& inputs, const RigidTransform& pose, const Messages& messages)
 {
   io::Cloud cloud = inputs.source->cloud;
   const bool is_double = cloud.find("x")->type == io::ScalarType::Float64;
   const Eigen::Matrix3Xd& xyz = inputs.source->xyz;
   const Eigen::Matrix3Xd moved = (pose.rotation * xyz).colwise() + pose.translation;
   if (!is_double && io::needsDoublePrecision(moved) && !io::needsDoublePrecision(xyz)) {
-    progress.note(
+    messages.note(
         "the aligned cloud lies too far from the origin for float32: its x, y, "
         "z are written as doubles");
     io::promoteCoordinates(cloud);
@@ -48,7 +47,7 @@ void
 writeOutputs(const Options& options,
              const Inputs& inputs,
              const Outcome& outcome,
-             const Progress& progress)
+             const Messages& messages)
 {
   const RigidTransform& pose = outcome.pair.pose.T_target_source;
   if (!options.json.empty()) {
@@ -63,12 +62,12 @@ writeOutputs(const Options& options,
     if (!options.transform.empty())
       io::writeFile(options.transform, io::formatTransform(pose));
     if (!options.output.empty())
-      io::writeCloud(options.output, alignedCloud(inputs, pose, progress));
+      io::writeCloud(options.output, alignedCloud(inputs, pose, messages));
   }
   else {
     for (const std::string& path : {options.output, options.transform})
       if (!path.empty())
-        progress.note(path + " is not written, since no pose is trusted" +
+        messages.note(path + " is not written, since no pose is trusted" +
                       (found ? " (--write-untrusted does)" : ""));
   }
   if (!options.snapshot.empty())
@@ -80,16 +79,16 @@ writeOutputs(const Options& options,
 Verdict
 run(const Options& options)
 {
-  const Progress progress(options.quiet);
+  const Messages messages("pcl_flashreg_align", options.quiet);
   const detail::Stopwatch total;
-  const Inputs inputs = readInputs(options, progress);
+  const Inputs inputs = readInputs(options, messages);
   const double reading_ms = total.milliseconds();
-  Outcome outcome = alignInputs(options, inputs, progress);
+  Outcome outcome = alignInputs(options, inputs, messages);
   outcome.reading_ms = reading_ms;
   outcome.total_ms = total.milliseconds();
   if (!options.quiet && options.json != "-")
     std::cout << formatReport(options, outcome) << std::flush;
-  writeOutputs(options, inputs, outcome, progress);
+  writeOutputs(options, inputs, outcome, messages);
   return outcome.pair.pose.converged ? TRUSTED : NOT_TRUSTED;
 }
 

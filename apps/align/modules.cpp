@@ -3,68 +3,29 @@
 
 #include "modules.h"
 
-#include <dlfcn.h>
-#include <unistd.h>
-
-#include <climits>
-#include <stdexcept>
-#include <string>
+#include "../program/modules.h"
 
 namespace pcl_flashreg::align {
-namespace {
-
-/** \brief The folder of this program, with a slash. */
-std::string
-programFolder()
-{
-  char path[PATH_MAX];
-  const ssize_t length = readlink("/proc/self/exe", path, sizeof(path));
-  const std::string program(path, length > 0 ? static_cast<std::size_t>(length) : 0);
-  return program.substr(0, program.rfind('/') + 1);
-}
-
-/** \brief Loads a module from beside the program (in the build tree), or from where it is
- * installed, for as long as the program runs.
- * \return its one function */
-void*
-loadFunction(const std::string& module, const char* function)
-{
-  const std::string folder = programFolder();
-  std::string problem = module + " is not installed";
-  for (const std::string& place : {folder, folder + PCL_FLASHREG_MODULE_FOLDER "/"}) {
-    const std::string path = place + module;
-    if (access(path.c_str(), F_OK) != 0)
-      continue;
-    void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    void* address = handle ? dlsym(handle, function) : nullptr;
-    if (address)
-      return address;
-    problem = dlerror();
-  }
-  throw std::runtime_error("a part of the program can't be loaded: " + problem);
-}
-
-} // namespace
 
 ShowClouds
 loadViewer()
 {
   return reinterpret_cast<ShowClouds>(
-      loadFunction("pcl_flashreg_viewer.so", "pcl_flashreg_show_clouds"));
+      program::loadFunction("pcl_flashreg_viewer.so", "pcl_flashreg_show_clouds"));
 }
 
 DrawSnapshot
 loadSnapshot()
 {
   return reinterpret_cast<DrawSnapshot>(
-      loadFunction("pcl_flashreg_snapshot.so", "pcl_flashreg_draw_snapshot"));
+      program::loadFunction("pcl_flashreg_snapshot.so", "pcl_flashreg_draw_snapshot"));
 }
 
 ComputeFpfh
 loadPclFeatures()
 {
-  return reinterpret_cast<ComputeFpfh>(
-      loadFunction("pcl_flashreg_pcl_features.so", "pcl_flashreg_compute_fpfh"));
+  return reinterpret_cast<ComputeFpfh>(program::loadFunction(
+      "pcl_flashreg_pcl_features.so", "pcl_flashreg_compute_fpfh"));
 }
 
 } // namespace pcl_flashreg::align

@@ -4,8 +4,7 @@
 #include "option_groups.h"
 
 #include "../io/raw_bin.h"
-
-#include <sstream>
+#include "../program/help_text.h"
 
 namespace pcl_flashreg::align {
 
@@ -22,28 +21,7 @@ const std::map<std::string, BackendKind> kBackends = {{"auto", BackendKind::Auto
 
 namespace {
 
-/** \brief Breaks a help text into lines that fit beside the names of the options. */
-std::string
-wrapped(const std::string& text)
-{
-  constexpr std::size_t width = 58;
-  std::string result;
-  std::size_t line = 0;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (line > 0 && line + 1 + word.size() > width) {
-      result += '\n';
-      line = 0;
-    }
-    else if (line > 0) {
-      result += ' ';
-      ++line;
-    }
-    result += word;
-    line += word.size();
-  }
-  return result;
-}
+using program::wrapped;
 
 template <typename Value>
 std::vector<std::string>

@@ -5,6 +5,7 @@
 
 #include "../io/cloud_io.h"
 #include "../program/command_line.h"
+#include "../program/output_paths.h"
 #include "option_groups.h"
 #include "snapshot.h"
 #include "viewer.h"
@@ -132,6 +133,15 @@ check(const Options& options)
     requireDisplay();
 }
 
+std::vector<std::string>
+inputPaths(const Options& options)
+{
+  std::vector<std::string> paths = {options.source, options.target, options.guess};
+  for (const auto& more : {options.correspondences, options.features})
+    paths.insert(paths.end(), more.begin(), more.end());
+  return paths;
+}
+
 } // namespace
 
 PairOptions
@@ -166,7 +176,9 @@ parseOptions(int argc, char** argv)
     return std::nullopt;
   takeWords(words, options);
   check(options);
-  checkOutputPaths(options);
+  program::checkOutputPaths(
+      {options.output, options.transform, options.json, options.snapshot},
+      inputPaths(options));
   return options;
 }
 

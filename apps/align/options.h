@@ -70,11 +70,4 @@ struct Options {
 std::optional<Options>
 parseOptions(int argc, char** argv);
 
-/** \brief Paths to write to must be no input and differ from each other, clouds must
- * have an extension that can be written, and folders must be there.
- * \throws UsageError if that is not so
- */
-void
-checkOutputPaths(const Options& options);
-
 } // namespace pcl_flashreg::align

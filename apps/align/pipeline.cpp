@@ -84,10 +84,10 @@ private:
 /** \brief One run: what it is made from, and what people are told on the way. */
 class Run {
 public:
-  Run(const Options& options, const Inputs& inputs, const Progress& progress)
+  Run(const Options& options, const Inputs& inputs, const Messages& messages)
       : options_(options),
         inputs_(inputs),
-        progress_(progress),
+        messages_(messages),
         source_(scanInput(
             inputs.source, inputs.source_features, options.source_viewpoint_known)),
         target_(scanInput(
@@ -152,19 +152,19 @@ private:
     step_ = at.step;
     switch (at.step) {
     case PairStep::Resolution:
-      return progress_.say("estimating the resolution");
+      return messages_.say("estimating the resolution");
     case PairStep::SourceScan:
-      return progress_.say("describing the source, voxels of " +
+      return messages_.say("describing the source, voxels of " +
                            detail::toText(at.resolution));
     case PairStep::TargetScan:
-      return progress_.say("describing the target");
+      return messages_.say("describing the target");
     case PairStep::Matching:
       requireKeypoints(*inputs_.source, at.source_keypoints, at.resolution);
       requireKeypoints(*inputs_.target, at.target_keypoints, at.resolution);
       warnOfLongMatching(at.source_keypoints, at.target_keypoints);
-      return progress_.say("matching");
+      return messages_.say("matching");
     case PairStep::Estimation:
-      return progress_.say("estimating the pose from " +
+      return messages_.say("estimating the pose from " +
                            std::to_string(at.correspondences) + " correspondences");
     }
   }
@@ -197,7 +197,7 @@ private:
     // Some ten seconds on two cores, going by 266 k with 254 k keypoints in 1.4 s.
     constexpr double MANY_PAIRS = 5e11;
     if (static_cast<double>(sources) * static_cast<double>(targets) > MANY_PAIRS)
-      progress_.note("matching " + std::to_string(sources) + " with " +
+      messages_.note("matching " + std::to_string(sources) + " with " +
                      std::to_string(targets) +
                      " keypoints may take long; a larger --leaf leaves fewer of them");
   }
@@ -239,7 +239,7 @@ private:
 
   const Options& options_;
   const Inputs& inputs_;
-  const Progress& progress_;
+  const Messages& messages_;
   ScanInput<double> source_, target_;
   PairStep step_ = PairStep::Resolution;
 };
@@ -247,14 +247,14 @@ private:
 } // namespace
 
 Outcome
-alignInputs(const Options& options, const Inputs& inputs, const Progress& progress)
+alignInputs(const Options& options, const Inputs& inputs, const Messages& messages)
 {
   const detail::Stopwatch setup;
   PairRegistration registration(options.backend, options.threads);
   Outcome outcome;
   outcome.setup_ms = setup.milliseconds();
-  outcome.pair = Run(options, inputs, progress).align(registration);
-  noteDoubts(options, inputs, outcome.pair, progress);
+  outcome.pair = Run(options, inputs, messages).align(registration);
+  noteDoubts(options, inputs, outcome.pair, messages);
   return outcome;
 }
 

@@ -39,6 +39,6 @@ stepsOf(const Outcome& outcome);
  * \throws BackendError, std::bad_alloc if the machine fails
  */
 Outcome
-alignInputs(const Options& options, const Inputs& inputs, const Progress& progress);
+alignInputs(const Options& options, const Inputs& inputs, const Messages& messages);
 
 } // namespace pcl_flashreg::align

@@ -3,34 +3,19 @@
 
 #include "report.h"
 
+#include "../program/rounded.h"
+
 #include <pcl_flashreg/impl/number_text.hpp>
 
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
-#include <locale>
-#include <sstream>
 
 namespace pcl_flashreg::align {
 namespace {
 
-/** \brief A stream whose numbers do not depend on the user's language. */
-std::ostringstream
-plainStream(int decimals)
-{
-  std::ostringstream stream;
-  stream.imbue(std::locale::classic());
-  stream << std::fixed << std::setprecision(decimals);
-  return stream;
-}
-
-std::string
-rounded(double value, int decimals)
-{
-  auto stream = plainStream(decimals);
-  stream << value;
-  return stream.str();
-}
+using program::plainStream;
+using program::rounded;
 
 std::string
 formatPose(const RigidTransform& pose)

@@ -1,32 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
+#include "../program/json.h"
 #include "report.h"
 
 #include <pcl_flashreg/estimator.h>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 namespace pcl_flashreg::align {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-template <typename Matrix>
-Json
-rowsOf(const Matrix& matrix)
-{
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-      row.push_back(matrix(i, j));
-    rows.push_back(row);
-  }
-  return rows;
-}
+using program::Json, program::rowsOf;
 
 const char*
 nameOf(Status status)
@@ -173,8 +158,7 @@ formatJson(const Options& options, const Outcome& outcome)
   json["free_motions"] = freeMotionsOf(result);
   json["information"] = rowsOf(result.information);
   json["timings_ms"] = timingsOf(outcome);
-  // A path need not be valid UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return program::textOf(json);
 }
 
 } // namespace pcl_flashreg::align

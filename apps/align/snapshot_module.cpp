@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
+#include "../drawing/picture.h"
+#include "../drawing/raster.h"
 #include "camera.h"
 #include "modules.h"
-#include "picture.h"
-#include "raster.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace pcl_flashreg::align {
 namespace {
+
+using drawing::Canvas;
+using drawing::Color;
+using drawing::Picture;
 
 constexpr int kPanel = 900;
 constexpr int kGap = 4;
@@ -96,7 +100,7 @@ addPanel(Picture& picture, int left, const std::string& title, const Canvas& clo
   constexpr double label_size = 0.025 * kPanel;
   constexpr double bottom = kPanel - margin;
   const double x = left + margin;
-  picture.paste(clouds, left);
+  picture.paste(clouds, left, 0);
   picture.write(title, x, margin + 0.75 * title_size, title_size, kInk, kBackground);
   const double next =
       picture.write("source", x, bottom, label_size, kSource, kBackground);
@@ -118,7 +122,7 @@ pcl_flashreg_draw_snapshot(const pcl_flashreg::align::ShownClouds& clouds,
       finitePoints({clouds.moved_source, 3, clouds.source_size});
   const Eigen::Matrix3Xd target = finitePoints({clouds.target, 3, clouds.target_size});
   const ViewDirection direction = chooseViewDirection(target);
-  Picture picture(2 * kPanel + kGap, kPanel, kBetween);
+  pcl_flashreg::drawing::Picture picture(2 * kPanel + kGap, kPanel, kBetween);
   addPanel(picture, 0, "before", drawClouds(direction, before, target));
   addPanel(picture, kPanel + kGap, "after", drawClouds(direction, after, target));
   png = picture.encode();

@@ -3,6 +3,9 @@
 
 // pcl_flashreg_evaluate: registers pairs with known poses and compares.
 
+#include "../batch/parts.h"
+#include "../batch/ranks.h"
+#include "../batch/split.h"
 #include "../io/error.h"
 #include "../io/file.h"
 #include "../program/program.h"
@@ -10,8 +13,6 @@
 #include "results/report.h"
 #include "run/evaluation.h"
 #include "run/parts.h"
-#include "run/ranks.h"
-#include "run/split.h"
 
 #include <pcl/console/print.h>
 
@@ -63,7 +64,7 @@ runInMemory(const Options& options, const Job& job)
 /** \brief Results go to files as they come: one process appends to the file itself, each
  * of several ranks to a part of its own, which the first one merges. */
 Results
-runWithFiles(const Options& options, const Job& job, const Ranks& ranks)
+runWithFiles(const Options& options, const Job& job, const batch::Ranks& ranks)
 {
   const bool first = ranks.rank() == 0;
   if (first) {
@@ -71,12 +72,12 @@ runWithFiles(const Options& options, const Job& job, const Ranks& ranks)
     removeParts(options.csv);
   }
   ranks.wait();
-  const std::vector<std::size_t> pairs =
-      partOf(remaining(job, readResults(options.csv)), ranks.rank(), ranks.size());
+  const std::vector<std::size_t> pairs = batch::partOf(
+      remaining(job, readResults(options.csv)), ranks.rank(), ranks.size());
   ranks.wait();
   std::string path = options.csv;
   if (ranks.size() > 1) {
-    path = partPath(options.csv, ranks.rank());
+    path = batch::partPath(options.csv, RANK, ranks.rank());
     writeResults(path, {job.config, {}});
   }
   {
@@ -102,7 +103,7 @@ runWithFiles(const Options& options, const Job& job, const Ranks& ranks)
 }
 
 void
-evaluate(const Options& options, const Ranks& ranks)
+evaluate(const Options& options, const batch::Ranks& ranks)
 {
   if (ranks.size() > 1 && options.csv.empty())
     throw UsageError("several ranks need --csv FILE in a folder that all of them see");
@@ -123,7 +124,7 @@ merge(const Options& options)
 }
 
 void
-run(const Options& options, const Ranks& ranks)
+run(const Options& options, const batch::Ranks& ranks)
 {
   ranks.wait(); // all have looked for the file before the first one makes it
   if (options.merge.empty())
@@ -141,7 +142,7 @@ main(int argc, char** argv)
   using namespace pcl_flashreg;
   // PCL's own messages would stand between the user and ours.
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  const evaluate::Ranks ranks;
+  const batch::Ranks ranks;
   const int status = program::run("pcl_flashreg_evaluate", [&] {
     if (const auto options = evaluate::parseOptions(argc, argv))
       evaluate::run(*options, ranks);

@@ -4,7 +4,6 @@
 #include "options.h"
 
 #include "../io/raw_bin.h"
-#include "../io/text.h"
 #include "../program/command_line.h"
 #include "methods/registry.h"
 
@@ -125,19 +124,6 @@ declareOutput(CLI::App& app, Options& options, std::string& shard)
   app.add_flag("--quiet", options.quiet, "No progress");
 }
 
-Shard
-parseShard(const std::string& text)
-{
-  const std::size_t slash = text.find('/');
-  Shard shard;
-  if (slash == std::string::npos ||
-      !io::parseUnsigned(text.substr(0, slash), shard.index) ||
-      !io::parseUnsigned(text.substr(slash + 1), shard.count) || shard.index < 1 ||
-      shard.index > shard.count)
-    throw UsageError("--shard: expected i/n with i from 1 to n, found '" + text + "'");
-  return shard;
-}
-
 void
 checkMethods(const std::vector<std::string>& names)
 {
@@ -191,7 +177,7 @@ parseOptions(int argc, char** argv)
   options.score = SCORES.at(options.score_name);
   options.descriptors = DESCRIPTORS.at(options.descriptors_name);
   if (!shard.empty())
-    options.shard = parseShard(shard);
+    options.shard = batch::parseShard(shard);
   check(options);
   return options;
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../batch/shard.h"
 #include "../program/program.h"
 #include "datasets/data_set.h"
 #include "features/descriptors.h"
@@ -18,11 +19,6 @@ namespace pcl_flashreg::evaluate {
 
 using program::UsageError;
 
-/** \brief Part `index` of `count`, from 1. */
-struct Shard {
-  std::size_t index = 1, count = 1;
-};
-
 /** \brief The command line of pcl_flashreg_evaluate; an empty path is one not given. */
 struct Options {
   std::string data;
@@ -30,7 +26,7 @@ struct Options {
   /** \brief Only these; all if empty. */
   std::vector<std::string> datasets;
   std::size_t every = 1;
-  Shard shard;
+  batch::Shard shard;
 
   std::vector<std::string> methods = {"flashreg"};
   std::optional<double> leaf, max_rotation, max_translation;

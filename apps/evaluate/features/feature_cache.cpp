@@ -5,8 +5,8 @@
 
 #include "../../io/error.h"
 #include "../../io/file.h"
-#include "front_end.h"
-#include "hash.h"
+#include "../../batch/front_end.h"
+#include "../../io/hash.h"
 
 #include <cstring>
 #include <filesystem>
@@ -55,10 +55,10 @@ FeatureCache::FeatureCache(std::string folder,
   fs::create_directories(folder_, error);
   if (!fs::is_directory(folder_))
     throw io::InputError(folder_ + ": cannot be made: " + error.message());
-  std::string settings = frontEndFingerprint();
+  std::string settings = batch::frontEndFingerprint();
   settings.append(reinterpret_cast<const char*>(&leaf), sizeof(leaf));
   settings.push_back(static_cast<char>(descriptors));
-  settings_ = toHex(hashOf(settings));
+  settings_ = io::toHex(io::hashOf(settings));
 }
 
 std::string
@@ -66,7 +66,7 @@ FeatureCache::keyOf(const std::string& cloud_path, ScanContent content) const
 {
   const char* kind = content == ScanContent::Surface ? ".surface" : ".fpfh";
   const bool raw = io::extensionOf(cloud_path) == ".bin";
-  return toHex(hashOf(io::readFile(cloud_path))) + "-" + settings_ +
+  return io::toHex(io::hashOf(io::readFile(cloud_path))) + "-" + settings_ +
          (raw ? "-" + std::to_string(bin_fields_) : "") + kind;
 }
 

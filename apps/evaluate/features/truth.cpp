@@ -6,7 +6,7 @@
 #include "../../io/cloud_io.h"
 #include "../../io/file.h"
 #include "../../io/transform_io.h"
-#include "hash.h"
+#include "../../io/hash.h"
 
 #include <pcl/filters/approximate_voxel_grid.h>
 #include <pcl/registration/icp.h>
@@ -45,7 +45,7 @@ load(const std::string& path)
     const std::string text = io::readFile(path);
     const std::size_t end = text.find('\n');
     const std::string pose = text.substr(std::min(text.size(), end + 1));
-    if (text.substr(0, end) == "# " + toHex(hashOf(pose)))
+    if (text.substr(0, end) == "# " + io::toHex(io::hashOf(pose)))
       return io::parseTransform(pose);
   }
   catch (const io::InputError&) {
@@ -87,10 +87,10 @@ TruthStore::get(const Pair& pair) const
   const std::string target = root_ + "/" + pair.target;
   std::string cached;
   if (!cache_folder_.empty()) {
-    const std::string key = toHex(hashOf(io::readFile(source))) +
-                            toHex(hashOf(io::readFile(target))) +
+    const std::string key = io::toHex(io::hashOf(io::readFile(source))) +
+                            io::toHex(io::hashOf(io::readFile(target))) +
                             io::formatTransform(pair.T_target_source);
-    cached = cache_folder_ + "/" + toHex(hashOf(key)) + ".pose";
+    cached = cache_folder_ + "/" + io::toHex(io::hashOf(key)) + ".pose";
     if (const auto pose = load(cached))
       return *pose;
   }
@@ -101,7 +101,7 @@ TruthStore::get(const Pair& pair) const
       refineTruth(points(source), points(target), pair.T_target_source);
   if (!cached.empty()) {
     const std::string pose = io::formatTransform(refined);
-    io::writeFile(cached, "# " + toHex(hashOf(pose)) + '\n' + pose);
+    io::writeFile(cached, "# " + io::toHex(io::hashOf(pose)) + '\n' + pose);
   }
   return refined;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
+#include "../../program/json.h"
 #include "report.h"
 
 #include <cmath>
@@ -8,7 +9,7 @@
 namespace pcl_flashreg::evaluate {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using program::Json;
 
 Json
 toJson(const Average& average)
@@ -75,8 +76,7 @@ formatJson(const Config& config, const std::vector<GroupSummary>& groups)
   json["groups"] = Json::array();
   for (const GroupSummary& group : groups)
     json["groups"].push_back(toJson(group));
-  // A path need not be valid UTF-8.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return program::textOf(json);
 }
 
 } // namespace pcl_flashreg::evaluate

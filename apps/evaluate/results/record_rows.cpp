@@ -3,76 +3,11 @@
 
 #include "record_rows.h"
 
-#include "../../io/error.h"
-#include "../../io/text.h"
-#include "csv.h"
+#include "../../batch/rows.h"
 
 namespace pcl_flashreg::evaluate {
-namespace {
 
-/** \brief Takes the cells of a row one after the other. */
-class CellReader {
-public:
-  CellReader(const std::vector<std::string>& cells,
-             const std::vector<std::string>& columns)
-      : cells_(cells), columns_(columns)
-  {
-    if (cells.size() != columns.size())
-      throw io::InputError("found " + std::to_string(cells.size()) +
-                           " columns, expected " + std::to_string(columns.size()));
-  }
-
-  const std::string&
-  text()
-  {
-    return cells_[next_++];
-  }
-
-  std::size_t
-  count()
-  {
-    std::size_t value = 0;
-    if (!io::parseUnsigned(cells_[next_], value))
-      fail("a count");
-    ++next_;
-    return value;
-  }
-
-  bool
-  flag()
-  {
-    const std::size_t value = count();
-    if (value > 1) {
-      --next_;
-      fail("0 or 1");
-    }
-    return value == 1;
-  }
-
-  double
-  number()
-  {
-    double value = 0;
-    if (!io::parseDouble(cells_[next_], value))
-      fail("a number");
-    ++next_;
-    return value;
-  }
-
-private:
-  [[noreturn]] void
-  fail(const std::string& expected) const
-  {
-    throw io::InputError("column " + columns_[next_] + ": '" + cells_[next_] +
-                         "' is not " + expected);
-  }
-
-  const std::vector<std::string>& cells_;
-  const std::vector<std::string>& columns_;
-  std::size_t next_ = 0;
-};
-
-} // namespace
+using batch::CellReader;
 
 std::vector<std::string>
 resultColumns()
@@ -130,35 +65,35 @@ resultCells(const Record& r)
                                  r.target,
                                  r.method,
                                  std::to_string(r.correspondences),
-                                 toText(r.inlier_ratio),
+                                 io::toText(r.inlier_ratio),
                                  flag(r.found),
                                  flag(r.success),
                                  flag(r.trusted),
-                                 toText(r.confidence),
+                                 io::toText(r.confidence),
                                  std::to_string(r.inliers),
-                                 toText(r.rotation_error),
-                                 toText(r.translation_error)};
+                                 io::toText(r.rotation_error),
+                                 io::toText(r.translation_error)};
   if (!r.evidence) {
     cells.resize(resultColumns().size());
     return cells;
   }
   const Evidence& e = *r.evidence;
   cells.insert(cells.end(),
-               {toText(e.inlier_ratio),
-                toText(e.rival_inliers),
-                toText(e.thickness),
+               {io::toText(e.inlier_ratio),
+                io::toText(e.rival_inliers),
+                io::toText(e.thickness),
                 flag(e.has_clouds),
                 flag(e.has_viewpoints),
-                toText(e.agreement.matched),
-                toText(e.agreement.contradicted),
-                toText(e.lead),
-                toText(e.stiffness),
-                toText(e.breadth),
-                toText(e.log_chance),
-                toText(e.mirrored),
-                toText(e.rivals),
-                toText(e.hold),
-                toText(e.agreement.residual)});
+                io::toText(e.agreement.matched),
+                io::toText(e.agreement.contradicted),
+                io::toText(e.lead),
+                io::toText(e.stiffness),
+                io::toText(e.breadth),
+                io::toText(e.log_chance),
+                io::toText(e.mirrored),
+                io::toText(e.rivals),
+                io::toText(e.hold),
+                io::toText(e.agreement.residual)});
   return cells;
 }
 
@@ -167,11 +102,11 @@ timeCells(const Record& r)
 {
   std::vector<std::string> cells = {std::to_string(r.pair),
                                     r.method,
-                                    toText(r.times.features),
-                                    toText(r.times.matching),
-                                    toText(r.times.estimation)};
+                                    io::toText(r.times.features),
+                                    io::toText(r.times.matching),
+                                    io::toText(r.times.estimation)};
   for (const Stage& stage : STAGES)
-    cells.push_back(r.times.stages ? toText((*r.times.stages).*stage.milliseconds)
+    cells.push_back(r.times.stages ? io::toText((*r.times.stages).*stage.milliseconds)
                                    : "");
   return cells;
 }

@@ -3,10 +3,11 @@
 
 #include "results_file.h"
 
+#include "../../batch/rows.h"
+#include "../../io/csv.h"
 #include "../../io/error.h"
 #include "../../io/file.h"
 #include "../../io/text.h"
-#include "csv.h"
 #include "record_rows.h"
 
 #include <algorithm>
@@ -16,35 +17,7 @@
 namespace pcl_flashreg::evaluate {
 namespace {
 
-using Cells = std::vector<std::string>;
-
-/** \brief Calls take(cells) for every row below the header; errors get the line. */
-template <typename Take>
-void
-readRows(io::LineReader& lines, const Cells& columns, Take&& take)
-{
-  std::string_view line;
-  const auto at = [&lines] {
-    return "line " + std::to_string(lines.lineNumber()) + ": ";
-  };
-  if (!lines.next(line) || splitCsv(line) != columns)
-    throw io::InputError(at() + "expected the columns " + joinCsv(columns));
-  while (lines.next(line))
-    try {
-      take(splitCsv(line));
-    }
-    catch (const io::InputError& error) {
-      throw io::InputError(at() + error.what());
-    }
-}
-
-/** \brief Without what follows the last end of a line. */
-std::string_view
-wholeLines(std::string_view bytes)
-{
-  const std::size_t end = bytes.rfind('\n');
-  return end == std::string_view::npos ? std::string_view() : bytes.substr(0, end + 1);
-}
+using batch::readRows, batch::wholeLines;
 
 Config
 parseConfig(std::string_view line)
@@ -65,7 +38,7 @@ parseResults(const std::string& bytes)
   std::string_view line;
   lines.next(line);
   results.config = parseConfig(line);
-  readRows(lines, resultColumns(), [&](const Cells& cells) {
+  readRows(lines, resultColumns(), [&](const batch::Cells& cells) {
     results.records.push_back(recordFromCells(cells));
   });
   return results;
@@ -78,7 +51,7 @@ parseTimes(const std::string& bytes)
 {
   TimesByRow times;
   io::LineReader lines(wholeLines(bytes));
-  readRows(lines, timeColumns(), [&](const Cells& cells) {
+  readRows(lines, timeColumns(), [&](const batch::Cells& cells) {
     std::pair<std::size_t, std::string> row;
     const Times of_row = timesFromCells(cells, row.first, row.second);
     times[row] = of_row;
@@ -136,12 +109,12 @@ readResults(const std::string& path)
 void
 writeResults(const std::string& path, const Results& results)
 {
-  std::string rows =
-                  "# " + results.config.dump() + '\n' + joinCsv(resultColumns()) + '\n',
-              times = joinCsv(timeColumns()) + '\n';
+  std::string rows = "# " + results.config.dump() + '\n' +
+                     io::joinCsv(resultColumns()) + '\n',
+              times = io::joinCsv(timeColumns()) + '\n';
   for (const Record& record : results.records) {
-    rows += joinCsv(resultCells(record)) + '\n';
-    times += joinCsv(timeCells(record)) + '\n';
+    rows += io::joinCsv(resultCells(record)) + '\n';
+    times += io::joinCsv(timeCells(record)) + '\n';
   }
   io::writeFile(timesPath(path), times);
   io::writeFile(path, rows);
@@ -159,19 +132,6 @@ sortRecords(const Config& config, std::vector<Record>& records)
       });
 }
 
-std::string
-difference(const Config& before, const Config& now)
-{
-  for (const auto& [key, value] : now.items())
-    if (!before.contains(key) || before[key] != value)
-      return key + " was " + (before.contains(key) ? before[key].dump() : "not set") +
-             ", is " + value.dump();
-  for (const auto& [key, value] : before.items())
-    if (!now.contains(key))
-      return key + " was " + value.dump() + ", is not set";
-  return "";
-}
-
 ResultsAppender::ResultsAppender(const std::string& path)
     : path_(path), results_(path, std::ios::app), times_(timesPath(path), std::ios::app)
 {
@@ -184,10 +144,10 @@ ResultsAppender::append(const std::vector<Record>& records)
 {
   // Times first: a pair whose row of results is there has its times, too.
   for (const Record& record : records)
-    times_ << joinCsv(timeCells(record)) << '\n';
+    times_ << io::joinCsv(timeCells(record)) << '\n';
   times_.flush();
   for (const Record& record : records)
-    results_ << joinCsv(resultCells(record)) << '\n';
+    results_ << io::joinCsv(resultCells(record)) << '\n';
   results_.flush();
   if (!results_ || !times_)
     throw io::InputError(path_ + ": cannot be written");

@@ -3,9 +3,8 @@
 
 #pragma once
 
+#include "../../batch/config.h"
 #include "record.h"
-
-#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <string>
@@ -13,9 +12,8 @@
 
 namespace pcl_flashreg::evaluate {
 
-/** \brief Everything that the results depend on, as JSON: method names under "methods", the
- * number of pairs under "pairs". */
-using Config = nlohmann::ordered_json;
+/** \brief With method names under "methods", the number of pairs under "pairs". */
+using batch::Config;
 
 /** \brief Records and what they were made with.
  *
@@ -49,10 +47,6 @@ writeResults(const std::string& path, const Results& results);
 /** \brief Puts records into the order of Results::records. */
 void
 sortRecords(const Config& config, std::vector<Record>& records);
-
-/** \brief What differs between two configurations, in words; empty if nothing does. */
-std::string
-difference(const Config& before, const Config& now);
 
 /** \brief Adds rows to files that writeResults() made. */
 class ResultsAppender {

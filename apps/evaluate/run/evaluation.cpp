@@ -9,7 +9,7 @@
 #include "../features/truth.h"
 #include "../methods/registry.h"
 #include "../results/judge.h"
-#include "progress.h"
+#include "../../batch/progress.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
@@ -153,7 +153,7 @@ evaluatePairs(const Options& options,
   };
   for (const std::size_t position : pairs)
     store.expect(pairAt(position));
-  Progress progress(pairs.size(), quiet);
+  batch::Progress progress(pairs.size(), "pairs", quiet);
   for (const std::size_t position : pairs) {
     const Pair& pair = pairAt(position);
     const Prepared prepared = prepare(pair, options, job, store, registration);

@@ -5,10 +5,10 @@
 
 #include "../../io/error.h"
 #include "../../io/transform_io.h"
-#include "../features/front_end.h"
-#include "../features/hash.h"
+#include "../../batch/front_end.h"
+#include "../../io/hash.h"
 #include "../methods/registry.h"
-#include "split.h"
+#include "../../batch/split.h"
 
 #include <pcl_flashreg/estimator.h>
 
@@ -64,7 +64,7 @@ fingerprintOf(const Job& job)
                                     std::string(pair.refine_truth ? "refined" : "")})
       bytes += text + '\n';
   }
-  return toHex(hashOf(bytes));
+  return io::toHex(io::hashOf(bytes));
 }
 
 Config
@@ -82,7 +82,7 @@ makeConfig(const Options& options, const Job& job)
     config["bin_fields"] = options.data_options.bin_fields;
   config["max_rotation_deg"] = job.data.criterion.max_rotation;
   config["max_translation"] = job.data.criterion.max_translation;
-  config["front_end"] = frontEndFingerprint();
+  config["front_end"] = batch::frontEndFingerprint();
   config["pairs"] = job.pairs.size();
   config["pairs_fingerprint"] = fingerprintOf(job);
   if (options.shard.count > 1)
@@ -107,7 +107,7 @@ makeJob(const Options& options)
   checkClouds(options, job);
   std::vector<std::size_t> positions(job.pairs.size());
   std::iota(positions.begin(), positions.end(), std::size_t{0});
-  job.shard = partOf(positions, options.shard.index - 1, options.shard.count);
+  job.shard = batch::partOf(positions, options.shard.index - 1, options.shard.count);
   job.parameters = Parameters::fromResolution(job.data.leaf);
   job.parameters.score_metric = options.score;
   job.config = makeConfig(options, job);

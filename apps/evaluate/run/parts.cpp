@@ -3,6 +3,7 @@
 
 #include "parts.h"
 
+#include "../../batch/parts.h"
 #include "../../io/error.h"
 
 #include <filesystem>
@@ -12,26 +13,6 @@ namespace pcl_flashreg::evaluate {
 namespace {
 
 namespace fs = std::filesystem;
-
-/** \brief All parts that lie beside a file of results, of any number of ranks. */
-std::vector<std::string>
-partsOf(const std::string& csv)
-{
-  std::vector<std::string> parts;
-  const fs::path path = fs::absolute(csv);
-  const std::string prefix = path.filename().string() + ".rank";
-  if (!fs::is_directory(path.parent_path()))
-    return parts; // writing the file will say so
-  for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path())) {
-    const std::string name = entry.path().filename().string();
-    const bool is_part =
-        name.rfind(prefix, 0) == 0 && name.size() > prefix.size() &&
-        name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
-    if (is_part)
-      parts.push_back(entry.path().string());
-  }
-  return parts;
-}
 
 /** \brief Adds the records of pairs that are not there yet. */
 void
@@ -48,23 +29,17 @@ add(const Results& from, std::set<std::size_t>& pairs, Results& to)
 
 } // namespace
 
-std::string
-partPath(const std::string& csv, std::size_t rank)
-{
-  return csv + ".rank" + std::to_string(rank);
-}
-
 Results
 readWithParts(const std::string& csv, const Config& config)
 {
-  std::vector<std::string> files = partsOf(csv);
+  std::vector<std::string> files = batch::partsOf(csv, RANK);
   if (fs::exists(csv))
     files.push_back(csv);
   Results all{config, {}};
   std::set<std::size_t> pairs;
   for (const std::string& file : files) {
     const Results some = readResults(file);
-    const std::string changed = difference(some.config, config);
+    const std::string changed = batch::difference(some.config, config);
     if (!changed.empty())
       throw io::InputError(file + ": was made with other settings: " + changed);
     add(some, pairs, all);
@@ -76,7 +51,7 @@ readWithParts(const std::string& csv, const Config& config)
 void
 removeParts(const std::string& csv)
 {
-  for (const std::string& part : partsOf(csv)) {
+  for (const std::string& part : batch::partsOf(csv, RANK)) {
     fs::remove(timesPath(part));
     fs::remove(part);
   }
@@ -92,7 +67,7 @@ mergeShards(const std::vector<std::string>& files)
     some.config.erase("shard");
     if (&file == &files.front())
       all.config = some.config;
-    const std::string changed = difference(all.config, some.config);
+    const std::string changed = batch::difference(all.config, some.config);
     if (!changed.empty())
       throw io::InputError(file + ": was made with other settings than " +
                            files.front() + ": " + changed);

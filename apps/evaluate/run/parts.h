@@ -10,9 +10,9 @@
 
 namespace pcl_flashreg::evaluate {
 
-/** \brief Where a rank leaves its rows until the first rank has merged them. */
-std::string
-partPath(const std::string& csv, std::size_t rank);
+/** \brief The kind of the parts, as batch::partPath() takes it: rows of a rank that the
+ * first one has not merged yet. */
+constexpr const char* RANK = "rank";
 
 /** \brief What is there of a run already: its file, and the parts of a run over ranks that
  * was killed, however many they were.
