@@ -215,8 +215,8 @@ TEST(Multiview, ARivalThatOthersVouchForBeatsTheWinner)
                                                              : relation.poses.front();
            relation.poses.size() != 2;) {
         RelativePose wrong = right;
-        wrong.T_target_source.translation += Eigen::Vector3d(
-            1 + 0.5 * static_cast<double>(relation.target), 0.7, -0.2);
+        wrong.T_target_source.translation +=
+            Eigen::Vector3d(1 + 0.5 * static_cast<double>(relation.target), 0.7, -0.2);
         wrong.probability = 0.5;
         relation.poses = {wrong, right};
         relation.poses[1].probability = 0.25;
@@ -281,7 +281,8 @@ TEST(Multiview, PairsAreTriedInRounds)
 
   std::vector<ScanRelation> tried;
   for (const ScanRelation& relation : relations())
-    if (std::count(first.begin(), first.end(), std::pair(relation.target, relation.source)))
+    if (std::count(
+            first.begin(), first.end(), std::pair(relation.target, relation.source)))
       tried.push_back(relation);
   const MultiviewResult map = place(tried);
   for (const auto& [target, source] :
@@ -299,8 +300,7 @@ TEST(Multiview, PairsAreTriedInRounds)
     EXPECT_NE(all.scans[target].group, all.scans[source].group);
   }
   std::vector<ScanRelation> both = relations();
-  for (ScanRelation& relation :
-       registration.relate(mixture().source(), last, options))
+  for (ScanRelation& relation : registration.relate(mixture().source(), last, options))
     both.push_back(std::move(relation));
   EXPECT_TRUE(
       registration.choosePairs(mixture().source(), both, place(both), options).empty());

@@ -31,8 +31,8 @@ ring()
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < 12; ++i) {
     const double turn = i * 2 * M_PI / 12;
-    poses.push_back(poseOf(
-        turn, {0.1, 0.2, 1}, {5 * std::cos(turn), 5 * std::sin(turn), 0.1 * i}));
+    poses.push_back(
+        poseOf(turn, {0.1, 0.2, 1}, {5 * std::cos(turn), 5 * std::sin(turn), 0.1 * i}));
   }
   return poses;
 }
@@ -183,8 +183,7 @@ TEST_F(Votes, OnePairHasTheOddsItHasByItself)
 {
   const Placements placements = count({says(0, 0.8, {1, 1, 1})});
   ASSERT_EQ(placements.best.size(), 1u);
-  EXPECT_NEAR(
-      placements.best[0].votes - placements.none, std::log(0.8 / 0.2), 0.01);
+  EXPECT_NEAR(placements.best[0].votes - placements.none, std::log(0.8 / 0.2), 0.01);
 }
 
 TEST_F(Votes, ASurePairElsewhereSpeaksAgainst)
@@ -204,9 +203,9 @@ TEST_F(Votes, AreTheSameWhicheverScanIsTheTarget)
   std::swap(turned.target, turned.source);
   turned.votes[0].T_target_source = turned.votes[0].T_target_source.inverse();
   const Placements a = count({says(0, 0.7, {1, 2, 3})}), b = count({turned});
-  EXPECT_LT((a.best[0].T_fixed_moving.matrix() - b.best[0].T_fixed_moving.matrix())
-                .norm(),
-            1e-12);
+  EXPECT_LT(
+      (a.best[0].T_fixed_moving.matrix() - b.best[0].T_fixed_moving.matrix()).norm(),
+      1e-12);
   EXPECT_EQ(a.best[0].votes, b.best[0].votes);
 }
 
@@ -285,7 +284,8 @@ TEST(Likeness, IsGreatestOfWhatIsTheSame)
   }
   scans.push_back(Scan());
   ThreadPool pool(2);
-  const Likeness likeness(5, [&](std::size_t i) { return scans[i]; }, pool);
+  const Likeness likeness(
+      5, [&](std::size_t i) { return scans[i]; }, pool);
   EXPECT_NEAR(likeness(0, 0), 1, 1e-5);
   EXPECT_GT(likeness(0, 1), likeness(0, 2));
   EXPECT_GT(likeness(2, 3), likeness(1, 3));
