@@ -7,6 +7,15 @@
 
 namespace pcl_flashreg::map {
 
+std::vector<std::string>
+namesOf(const MapRun& run)
+{
+  std::vector<std::string> names;
+  for (const ScanFile& scan : run.scans)
+    names.push_back(scan.name);
+  return names;
+}
+
 std::size_t
 numberOfMaps(const MultiviewResult& result)
 {

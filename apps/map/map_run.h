@@ -38,6 +38,10 @@ struct MapRun {
   MapTimes times;
 };
 
+/** \brief Of the scans. */
+std::vector<std::string>
+namesOf(const MapRun& run);
+
 /** \brief Groups of more than one scan: they come first. */
 std::size_t
 numberOfMaps(const MultiviewResult& result);

@@ -6,6 +6,7 @@
 #include "../io/file.h"
 #include "../program/output_paths.h"
 #include "graph.h"
+#include "map_picture.h"
 #include "merged_cloud.h"
 #include "poses.h"
 #include "report.h"
@@ -115,8 +116,13 @@ checkOutputs(const Options& options, const std::vector<ScanFile>& files)
   std::vector<std::string> inputs{options.list};
   for (const ScanFile& file : files)
     inputs.push_back(file.path);
-  std::vector<std::string> outputs{
-      options.output, options.poses, options.graph, options.json, options.pairs};
+  std::vector<std::string> outputs{options.output,
+                                   options.poses,
+                                   options.graph,
+                                   options.picture,
+                                   options.page,
+                                   options.json,
+                                   options.pairs};
   // Only what is there can be a scan.
   for (const std::string& path : outputsOfMaps(options))
     for (std::size_t map = 1; map < files.size() / 2; ++map)
@@ -127,7 +133,10 @@ checkOutputs(const Options& options, const std::vector<ScanFile>& files)
 }
 
 void
-writeOutputs(const Options& options, const MapRun& run, const Messages& messages)
+writeOutputs(const Options& options,
+             const MapRun& run,
+             const MultiviewRegistration::ScanSource& source,
+             const Messages& messages)
 {
   std::size_t maps = numberOfMaps(run.result);
   if (options.largest_only)
@@ -136,6 +145,8 @@ writeOutputs(const Options& options, const MapRun& run, const Messages& messages
     writePoses(options, run, maps);
   if (!options.graph.empty())
     io::writeFile(options.graph, formatG2o(run.result));
+  if (!options.picture.empty())
+    writeMapPicture(options.picture, namesOf(run), run.result, source);
   if (!options.output.empty())
     for (std::size_t map = 0; map < maps; ++map)
       writeCloudOf(options, run, map, messages);

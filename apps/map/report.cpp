@@ -3,12 +3,12 @@
 
 #include "report.h"
 
+#include "../program/rounded.h"
+#include "page.h"
+
 #include <pcl_flashreg/impl/number_text.hpp>
 
 #include <algorithm>
-#include <iomanip>
-#include <locale>
-#include <sstream>
 
 namespace pcl_flashreg::map {
 namespace {
@@ -18,10 +18,7 @@ constexpr std::size_t WIDTH = 88, MARGIN = 12;
 std::string
 seconds(double milliseconds)
 {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(1) << milliseconds / 1000;
-  return text.str();
+  return program::rounded(milliseconds / 1000, 1);
 }
 
 /** \brief "title       item, item," in lines of bearable length. */
@@ -142,6 +139,23 @@ formatReport(const MapRun& run)
              {detail::toText(run.resolution) +
               (run.resolution_estimated ? " (estimated; --leaf sets another)" : "")}) +
          formatTimes(run);
+}
+
+std::string
+formatPageOf(const MapRun& run, const std::vector<std::string>& options)
+{
+  const std::vector<std::string> names = namesOf(run);
+  const MapTimes& times = run.times;
+  return formatPage({names,
+                     run.result,
+                     run.pairs,
+                     run.resolution,
+                     options,
+                     {{"reading", times.reading},
+                      {"pairs", times.relations},
+                      {"placing", times.placing},
+                      {"writing", times.writing},
+                      {"total", times.total}}});
 }
 
 } // namespace pcl_flashreg::map
