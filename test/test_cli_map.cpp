@@ -50,11 +50,15 @@ TEST_F(CliMap, placesAllScansAndSaysSo)
   const ProgramRun run = makeMap("scans map.pcd");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out.find("all 8 scans are placed, in one map\n"), 0u) << run.out;
-  EXPECT_NE(run.out.find("\npairs       28 tried, "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\npairs       28 registered\nedges       "), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("estimated"), std::string::npos) << run.out;
   EXPECT_EQ(run.out.find("not placed"), std::string::npos) << run.out;
   const io::Cloud cloud = io::readCloud(path("map.pcd"));
   EXPECT_NE(cloud.find("intensity"), nullptr);
+  EXPECT_NE(run.out.find("\nwritten     map.pcd (" + std::to_string(cloud.size()) +
+                         " points)\n"),
+            std::string::npos)
+      << run.out;
   // All that one scan lacks, others have; in its frame, which is that of the room.
   const Eigen::Matrix3Xd xyz = io::coordinates(cloud);
   EXPECT_LT(xyz.rowwise().minCoeff().norm(), 0.1);

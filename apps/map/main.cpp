@@ -117,7 +117,7 @@ private:
   write()
   {
     const detail::Stopwatch watch;
-    writeOutputs(options_, run_, source_, messages_);
+    run_.clouds = writeOutputs(options_, run_, source_, messages_);
     run_.times.writing = watch.milliseconds();
     run_.times.total = total_.milliseconds();
     if (!options_.page.empty())

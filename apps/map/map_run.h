@@ -19,6 +19,12 @@ struct LeftOutFile {
   std::string reason;
 };
 
+/** \brief A merged cloud that was written. */
+struct WrittenCloud {
+  std::string path;
+  std::size_t points = 0;
+};
+
 /** \brief Milliseconds. */
 struct MapTimes {
   double reading = 0, relations = 0, placing = 0, writing = 0, total = 0;
@@ -35,6 +41,7 @@ struct MapRun {
   /** \brief Pairs of scans that were tried, and those of them that an earlier run had. */
   std::size_t pairs = 0, known_pairs = 0;
   MultiviewResult result;
+  std::vector<WrittenCloud> clouds;
   MapTimes times;
 };
 

@@ -54,7 +54,7 @@ checkFolders(const Options& options)
   }
 }
 
-void
+WrittenCloud
 writeCloudOf(const Options& options,
              const MapRun& run,
              std::size_t map,
@@ -65,8 +65,11 @@ writeCloudOf(const Options& options,
   std::vector<MapInput> inputs;
   for (const std::size_t scan : run.result.groups[map])
     inputs.push_back({run.scans[scan].path, run.result.scans[scan].T_group_scan});
-  writeMergedCloud(
-      inputs, options.map_leaf.value_or(run.resolution), path, options.bin_fields);
+  return {path,
+          writeMergedCloud(inputs,
+                           options.map_leaf.value_or(run.resolution),
+                           path,
+                           options.bin_fields)};
 }
 
 void
@@ -132,7 +135,7 @@ checkOutputs(const Options& options, const std::vector<ScanFile>& files)
   checkFolders(options);
 }
 
-void
+std::vector<WrittenCloud>
 writeOutputs(const Options& options,
              const MapRun& run,
              const MultiviewRegistration::ScanSource& source,
@@ -147,10 +150,12 @@ writeOutputs(const Options& options,
     io::writeFile(options.graph, formatG2o(run.result));
   if (!options.picture.empty())
     writeMapPicture(options.picture, namesOf(run), run.result, source);
+  std::vector<WrittenCloud> clouds;
   if (!options.output.empty())
     for (std::size_t map = 0; map < maps; ++map)
-      writeCloudOf(options, run, map, messages);
+      clouds.push_back(writeCloudOf(options, run, map, messages));
   noteMissing(options, maps, messages);
+  return clouds;
 }
 
 } // namespace pcl_flashreg::map

@@ -26,8 +26,9 @@ checkOutputs(const Options& options, const std::vector<ScanFile>& files);
 
 /** \brief Writes clouds, poses, the graph and the picture; not the page and the JSON, which
  * tell how long that took.
+ * \return the merged clouds
  * \throws io::InputError if a file can't be read again, or not be written */
-void
+std::vector<WrittenCloud>
 writeOutputs(const Options& options,
              const MapRun& run,
              const MultiviewRegistration::ScanSource& source,
