@@ -23,9 +23,11 @@ struct RelativePose {
   int inliers = 0;
 };
 
-/** \brief What two scans say of each other. */
+/** \brief What two scans say of each other. Asked the other way round, with source and target
+ * exchanged, they may say something else: where both ways were asked, they speak with half
+ * their voice each. */
 struct ScanRelation {
-  /** \brief Numbers of the scans; the target has the smaller one. */
+  /** \brief Numbers of the scans. */
   std::size_t source = 0, target = 0;
   /** \brief The most probable first: rivals of a wrong one may be right. Empty where none was
    * found. */
@@ -89,7 +91,8 @@ struct MultiviewResult {
   /** \brief Numbers of the scans of each group, ascending; the largest group first, of
    * equally large ones the one with the smallest number. */
   std::vector<std::vector<std::size_t>> groups;
-  /** \brief One for every pair that was found to have a pose, by target and source. */
+  /** \brief One for every pair that was found to have a pose, by target and source; the target has
+   * the smaller number. */
   std::vector<MapEdge> edges;
   MultiviewTimings timings;
 
@@ -103,7 +106,7 @@ struct MultiviewOptions {
   /** \brief Of each pair. */
   PairOptions pair;
   /** \brief A scan stays in a group if its confidence is at least this; (0, 1). */
-  double min_confidence = 0.95;
+  double min_confidence = 0.9;
   /** \brief Each scan is tried with so many others at first, those that are most like it by their
    * descriptors; >= 1. */
   std::size_t alike = 12;
@@ -158,8 +161,9 @@ public:
               const ScanSource& scans,
               const MultiviewOptions& options = {});
 
-  /** \brief The pairs to go on with: those that have not been tried, of scans that the map does
-   * not tie to each other. None where there is nothing left to do.
+  /** \brief The pairs to go on with, of scans that the map does not tie to each other: those that
+   * have not been tried; once there are none, those that promised something, the other way
+   * round. None where there is nothing left to do.
    * \param[in] tried all so far
    * \param[in] map made from them */
   std::vector<ScanPair>
@@ -180,7 +184,7 @@ public:
    * needed any more.
    * \param[in] count number of scans
    * \throws std::invalid_argument if an option is out of range, if a relation names a scan
-   * that is none, or if two are of the same pair */
+   * that is none, or if two are of the same source and target */
   MultiviewResult
   place(std::size_t count,
         const ScanSource& scans,

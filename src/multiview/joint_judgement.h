@@ -6,17 +6,9 @@
 #include "judgement/cpu/contacts.h"
 #include "multiview/map_scan.h"
 
-#include <functional>
-#include <memory>
 #include <vector>
 
 namespace pcl_flashreg {
-
-/** \brief Where map scans come from, by their numbers. */
-using MapScans = std::function<std::shared_ptr<const MapScan>(std::size_t)>;
-
-/** \brief A pose of each scan's middle, in the frame of its group. */
-using MapPoses = std::vector<Eigen::Isometry3d>;
 
 /** \brief See JointAgreement::harmony(): of nine in ten right placements it is more. */
 constexpr double HARMONY = 3.5;

@@ -13,6 +13,10 @@ namespace {
 
 using ScanPair = std::pair<std::size_t, std::size_t>;
 
+/** \brief Surfaces that touch, but only if the scan is turned by more than this (radians) from
+ * where the map has it, say nothing that anybody vouches for. */
+constexpr double MOST_TURNED = 0.1;
+
 std::vector<std::vector<std::size_t>>
 inOrder(std::vector<std::vector<std::size_t>> groups)
 {
@@ -71,6 +75,9 @@ reportOf(const Grouping& map,
   for (const SurfaceEdge& found : edges) {
     const std::size_t target = found.constraint.target,
                       source = found.constraint.source;
+    const auto off = residualOf(found.constraint, map.poses[target], map.poses[source]);
+    if (found.probability == 0 && off.head<3>().norm() > MOST_TURNED)
+      continue;
     MapEdge& edge = all[{target, source}];
     edge.fate = EdgeFate::Used;
     edge.agreement = found.agreement;
@@ -79,7 +86,6 @@ reportOf(const Grouping& map,
     edge.information = informationOf(found.constraint, scans(target)->middle);
     edge.T_target_source =
         betweenFrames(found.constraint.T_target_source, *scans(target), *scans(source));
-    const auto off = residualOf(found.constraint, map.poses[target], map.poses[source]);
     edge.rotation_residual = off.head<3>().norm();
     edge.translation_residual = off.tail<3>().norm();
     ++result.scans[target].edges;

@@ -40,10 +40,10 @@ checkRelations(std::size_t count, const std::vector<ScanRelation>& relations)
   for (const ScanRelation& relation : relations) {
     const std::string pair =
         std::to_string(relation.target) + " and " + std::to_string(relation.source);
-    if (relation.target >= relation.source || relation.source >= count)
-      throw std::invalid_argument("relation between scans " + pair + ": of " +
-                                  std::to_string(count) +
-                                  " scans, and the target first");
+    if (relation.target == relation.source ||
+        std::max(relation.target, relation.source) >= count)
+      throw std::invalid_argument("relation between scans " + pair + ": there are " +
+                                  std::to_string(count) + ", and a pair has two");
     if (!seen.insert({relation.target, relation.source}).second)
       throw std::invalid_argument("two relations between scans " + pair);
   }
@@ -78,26 +78,6 @@ falseViewpoints(std::size_t count, const std::vector<ScanRelation>& relations)
   for (std::size_t i = 0; i < count; ++i)
     result[i] = overruled[i] > MOST * all[i];
   return result;
-}
-
-std::vector<PairVotes>
-votesOf(const std::vector<ScanRelation>& relations, const MapScans& scans)
-{
-  std::vector<PairVotes> pairs;
-  for (const ScanRelation& relation : relations) {
-    if (relation.poses.empty())
-      continue;
-    PairVotes pair{relation.target, relation.source, {}};
-    const auto target = scans(relation.target), source = scans(relation.source);
-    for (const RelativePose& pose : relation.poses)
-      pair.votes.push_back(
-          {pose.probability, betweenMiddles(pose.T_target_source, *target, *source)});
-    pairs.push_back(std::move(pair));
-  }
-  std::sort(pairs.begin(), pairs.end(), [](const PairVotes& a, const PairVotes& b) {
-    return std::pair(a.target, a.source) < std::pair(b.target, b.source);
-  });
-  return pairs;
 }
 
 /** \brief Pairs of scans of a group. */

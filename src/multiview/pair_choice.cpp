@@ -17,6 +17,9 @@ constexpr std::size_t NEIGHBOURS = 3;
  * MultiviewOptions::alike are looked for. */
 constexpr std::size_t REPEATED = 4;
 
+/** \brief The probability of a pair's best pose that is worth a second try. */
+constexpr double PROMISING = 0.05;
+
 ScanPairs
 listed(const std::set<MultiviewRegistration::ScanPair>& pairs)
 {
@@ -48,6 +51,9 @@ untiedPairs(const Likeness& likeness,
             const MultiviewResult& map,
             const MultiviewOptions& options)
 {
+  const auto tied = [&](const MultiviewRegistration::ScanPair& pair) {
+    return map.scans[pair.first].group == map.scans[pair.second].group;
+  };
   const std::size_t count = map.scans.size();
   std::set<MultiviewRegistration::ScanPair> known, pairs;
   std::vector<std::size_t> tries(count);
@@ -62,14 +68,22 @@ untiedPairs(const Likeness& likeness,
     if (!few && tries[scan] >= REPEATED * options.alike)
       continue;
     for (const std::size_t other : likeness.ranked(scan)) {
+      const MultiviewRegistration::ScanPair pair = std::minmax(scan, other);
       if (left == 0)
         break;
-      const auto pair = std::minmax(scan, other);
-      if (map.scans[scan].group == map.scans[other].group || known.count(pair) > 0)
+      if (tied(pair) || known.count(pair) > 0)
         continue;
       pairs.insert(pair);
       --left;
     }
+  }
+  if (!pairs.empty())
+    return listed(pairs);
+  for (const ScanRelation& relation : tried) {
+    const MultiviewRegistration::ScanPair other_way(relation.source, relation.target);
+    if (!tied(other_way) && known.count(other_way) == 0 && !relation.poses.empty() &&
+        relation.poses.front().probability >= PROMISING)
+      pairs.insert(other_way);
   }
   return listed(pairs);
 }

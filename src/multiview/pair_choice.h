@@ -15,7 +15,8 @@ firstPairs(const Likeness& likeness,
            std::size_t count,
            const MultiviewOptions& options);
 
-/** \brief Pairs that have not been tried of scans that the map does not tie to each other. */
+/** \brief Of scans that the map does not tie to each other, pairs that have not been tried; once
+ * there are none, those that promised something, the other way round. */
 ScanPairs
 untiedPairs(const Likeness& likeness,
             const std::vector<ScanRelation>& tried,

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace pcl_flashreg {
 namespace {
@@ -114,7 +116,70 @@ weigh(const Eigen::Isometry3d& T_fixed_moving,
   return placement;
 }
 
+/** \brief The poses that a pair was found to have, as those of the pair with the smaller number
+ * as target. */
+std::vector<Vote>
+votesOf(const ScanRelation& relation, const MapScans& scans)
+{
+  std::vector<Vote> votes;
+  const auto target = scans(relation.target), source = scans(relation.source);
+  for (const RelativePose& pose : relation.poses) {
+    const Eigen::Isometry3d T = betweenMiddles(pose.T_target_source, *target, *source);
+    votes.push_back(
+        {pose.probability,
+         relation.target < relation.source ? T : T.inverse(Eigen::Isometry)});
+  }
+  return votes;
+}
+
+/** \brief Both ways of a pair: what both say is a vote of both. */
+std::vector<Vote>
+bothWays(std::vector<Vote> votes, const std::vector<Vote>& others, double spacing)
+{
+  for (Vote& vote : votes)
+    vote.probability /= 2;
+  const std::size_t first = votes.size();
+  for (const Vote& other : others) {
+    const auto end = votes.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto same = std::find_if(votes.begin(), end, [&](const Vote& vote) {
+      return samePlace(vote.T_target_source, other.T_target_source, spacing);
+    });
+    if (same == end)
+      votes.push_back({other.probability / 2, other.T_target_source});
+    else
+      same->probability += other.probability / 2;
+  }
+  std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) {
+    return a.probability > b.probability;
+  });
+  return votes;
+}
+
 } // namespace
+
+std::vector<PairVotes>
+votesOf(const std::vector<ScanRelation>& relations, const MapScans& scans)
+{
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<Vote>> forth, back;
+  for (const ScanRelation& relation : relations)
+    (relation.target < relation.source
+         ? forth
+         : back)[std::minmax(relation.target, relation.source)] =
+        votesOf(relation, scans);
+  for (auto& [pair, votes] : back) {
+    const auto other = forth.find(pair);
+    if (other == forth.end())
+      forth.emplace(pair, std::move(votes));
+    else
+      other->second =
+          bothWays(std::move(other->second), votes, scans(pair.second)->spacing);
+  }
+  std::vector<PairVotes> result;
+  for (auto& [pair, votes] : forth)
+    if (!votes.empty())
+      result.push_back({pair.first, pair.second, std::move(votes)});
+  return result;
+}
 
 double
 PairVotes::unsure() const

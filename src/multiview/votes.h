@@ -5,13 +5,12 @@
 
 #include "multiview/map_scan.h"
 
+#include <pcl_flashreg/multiview_registration.h>
+
 #include <cstddef>
 #include <vector>
 
 namespace pcl_flashreg {
-
-/** \brief A pose of a scan's middle for each scan, in the frame of its group. */
-using MapPoses = std::vector<Eigen::Isometry3d>;
 
 /** \brief One pose that a pair speaks for. */
 struct Vote {
@@ -29,6 +28,11 @@ struct PairVotes {
   double
   unsure() const;
 };
+
+/** \brief What relations say, by target and source, the target having the smaller number. Of a
+ * pair that was asked both ways each counts by half. */
+std::vector<PairVotes>
+votesOf(const std::vector<ScanRelation>& relations, const MapScans& scans);
 
 /** \brief A way in which two groups may lie to each other. */
 struct Placement {
