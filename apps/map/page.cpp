@@ -74,9 +74,9 @@ formatSummary(const PageInput& input)
       "# Map of " + plural(result.scans.size(), "scan") +
       "\n\n- placed: " + std::to_string(result.placed()) + " of " +
       plural(result.scans.size(), "scan") + ", in " + plural(maps, "map") +
-      "\n- pairs: " + std::to_string(input.pairs) + " registered\n- edges: " +
-      std::to_string(used) +
-      " used, " + std::to_string(countOf(result, EdgeFate::Disagrees)) + " rejected (" +
+      "\n- pairs: " + std::to_string(input.pairs) +
+      " registered\n- edges: " + std::to_string(used) + " used, " +
+      std::to_string(countOf(result, EdgeFate::Disagrees)) + " rejected (" +
       std::to_string(rejectedAndCertain(result)) + " of them certain by themselves), " +
       std::to_string(countOf(result, EdgeFate::Apart)) +
       " between scans that are not in one map\n- loops: " +
