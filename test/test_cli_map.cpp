@@ -7,6 +7,7 @@
 #include "io/text.h"
 
 #include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/multiview_registration.h>
 
 #include <map>
 #include <sstream>
@@ -49,11 +50,17 @@ TEST_F(CliMap, placesAllScansAndSaysSo)
   const ProgramRun run = makeMap("scans map.pcd");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out.find("all 8 scans are placed, in one map\n"), 0u) << run.out;
-  EXPECT_NE(run.out.find("\npairs       28 tried, "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\npairs       28 registered\nedges       "),
+            std::string::npos)
+      << run.out;
   EXPECT_NE(run.out.find("estimated"), std::string::npos) << run.out;
   EXPECT_EQ(run.out.find("not placed"), std::string::npos) << run.out;
   const io::Cloud cloud = io::readCloud(path("map.pcd"));
   EXPECT_NE(cloud.find("intensity"), nullptr);
+  EXPECT_NE(run.out.find("\nwritten     map.pcd (" + std::to_string(cloud.size()) +
+                         " points)\n"),
+            std::string::npos)
+      << run.out;
   // All that one scan lacks, others have; in its frame, which is that of the room.
   const Eigen::Matrix3Xd xyz = io::coordinates(cloud);
   EXPECT_LT(xyz.rowwise().minCoeff().norm(), 0.1);
@@ -71,7 +78,7 @@ TEST_F(CliMap, jsonHasItsKeys)
   EXPECT_EQ(json.at("complete"), true);
   EXPECT_EQ(json.at("placed"), 4);
   EXPECT_EQ(json.at("resolution"), 0.1);
-  EXPECT_EQ(json.at("min_confidence"), 0.9);
+  EXPECT_EQ(json.at("min_confidence"), MultiviewOptions().min_confidence);
   EXPECT_EQ(json.at("pairs"), 6);
   EXPECT_EQ(json.at("left_out").size(), 0u);
   EXPECT_EQ(json.at("groups"), nlohmann::json({{0, 1, 2, 3}}));
@@ -80,7 +87,7 @@ TEST_F(CliMap, jsonHasItsKeys)
     EXPECT_EQ(scan.at("name"), "scan_" + std::to_string(i) + ".pcd");
     EXPECT_EQ(scan.at("path"), "scans/scan_" + std::to_string(i) + ".pcd");
     EXPECT_EQ(scan.at("group"), 1);
-    EXPECT_GE(scan.at("confidence").get<double>(), 0);
+    EXPECT_GE(scan.at("confidence"), MultiviewOptions().min_confidence);
     EXPECT_GT(scan.at("edges").get<int>(), 0);
     EXPECT_LT(errorOf(poseOf(scan.at("transformation")), i), 0.03);
   }
@@ -188,6 +195,20 @@ TEST_F(CliMap, theGraphIsG2os)
   EXPECT_EQ(lines["VERTEX_SE3:QUAT"], 4);
   EXPECT_EQ(lines["FIX"], 1);
   EXPECT_GE(lines["EDGE_SE3:QUAT"], 3);
+}
+
+TEST_F(CliMap, drawsAndWritesAPage)
+{
+  writeScans(0, 3);
+  const ProgramRun run =
+      makeMap("scans --page page.md --picture map.png --threads 2" + std::string(LEAF));
+  if (run.err.find("--picture is not built into this program") != std::string::npos)
+    GTEST_SKIP() << "built without Cairo";
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(read("map.png").substr(1, 3), "PNG");
+  const std::string page = read("page.md");
+  for (const char* text : {"--leaf 0.1", "--threads 2", "placing"})
+    EXPECT_NE(page.find(text), std::string::npos) << page;
 }
 
 TEST_F(CliMap, namesScansThatItCannotPlace)

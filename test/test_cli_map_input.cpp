@@ -45,7 +45,7 @@ TEST_F(CliMapInput, leavesBadScansOut)
         "note: scans/garbage.ply: ",
         "note: scans/nan.pcd: none of its 4 points have finite coordinates; it is",
         "note: scans/two.pcd: only 2 of its 2 points have finite coordinates",
-        "note: scans/near.pcd: only 1 points are left at a resolution of 0.1",
+        "note: scans/near.pcd: only 0 points are left at a resolution of 0.1",
         "note: scans/scan_10.pcd: is the same as scans/scan_1.pcd; it is left out"})
     EXPECT_NE(run.err.find(text), std::string::npos) << text << '\n' << run.err;
   EXPECT_NE(run.out.find("\nleft out    scans/empty.pcd: is empty\n"),

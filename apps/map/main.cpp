@@ -24,6 +24,7 @@ namespace pcl_flashreg::map {
 namespace {
 
 using program::Messages;
+using ScanPair = MultiviewRegistration::ScanPair;
 
 /** \brief Exit statuses beside those of program::run(). */
 enum Verdict { COMPLETE = 0, NOT_COMPLETE = 1 };
@@ -44,15 +45,15 @@ public:
   {
     read(files);
     ranks_.wait(); // all have looked at the pairs' file before the first one makes it
-    relate();
-    if (ranks_.rank() > 0)
-      return COMPLETE;
-    if (options_.shard) {
+    PairRelations pairs(options_, scans_, source_, ranks_, registration_);
+    if (!relateAndPlace(pairs)) {
       messages_.note(
           "these pairs are done: once all shards are, --resume makes the map");
       return COMPLETE;
     }
-    place();
+    if (ranks_.rank() > 0)
+      return COMPLETE;
+    pairs.finish();
     write();
     return isComplete(run_) ? COMPLETE : NOT_COMPLETE;
   }
@@ -74,35 +75,53 @@ private:
     run_.times.reading = watch.milliseconds();
   }
 
-  void
-  relate()
+  /** \brief In rounds: what the map does not tie together is tried again. Each rank makes the
+   * same map, and knows by that which pairs are next.
+   * \return false where a shard ends before there is a map */
+  bool
+  relateAndPlace(PairRelations& pairs)
   {
-    const detail::Stopwatch watch;
-    Relations relations = relateScans(options_, scans_, source_, ranks_, registration_);
-    relations_ = std::move(relations.all);
-    run_.pairs = relations_.size();
-    run_.known_pairs = relations.known;
-    run_.times.relations = watch.milliseconds();
-  }
-
-  void
-  place()
-  {
-    messages_.say("placing the scans");
-    const detail::Stopwatch watch;
+    const MultiviewOptions options = options_.multiview();
+    std::vector<ScanRelation> relations;
+    const auto timed = [](double& milliseconds, const auto& work) {
+      const detail::Stopwatch watch;
+      auto result = work();
+      milliseconds += watch.milliseconds();
+      return result;
+    };
+    for (bool first = true;; first = false) {
+      const std::vector<ScanPair> next = timed(run_.times.relations, [&] {
+        return first ? registration_.choosePairs(scans_.files.size(), source_, options)
+                     : registration_.choosePairs(
+                           source_, relations, run_.result, options);
+      });
+      if (next.empty() && !first)
+        break;
+      if (options_.shard && pairs.relateShard(next))
+        return false;
+      for (ScanRelation& relation :
+           timed(run_.times.relations, [&] { return pairs.of(next); }))
+        relations.push_back(std::move(relation));
+      messages_.say("placing the scans");
+      run_.result = timed(run_.times.placing, [&] {
+        return registration_.place(scans_.files.size(), source_, relations, options);
+      });
+    }
     run_.min_confidence = options_.min_confidence;
-    run_.result = registration_.place(
-        scans_.files.size(), source_, relations_, options_.multiview());
-    run_.times.placing = watch.milliseconds();
+    run_.pairs = relations.size();
+    run_.known_pairs = pairs.knownBefore();
+    return true;
   }
 
   void
   write()
   {
     const detail::Stopwatch watch;
-    writeOutputs(options_, run_, messages_);
+    run_.clouds = writeOutputs(options_, run_, source_, messages_);
     run_.times.writing = watch.milliseconds();
     run_.times.total = total_.milliseconds();
+    if (!options_.page.empty())
+      io::writeFile(options_.page, formatPageOf(run_, options_.typed));
     if (!options_.quiet && options_.json != "-")
       std::cout << formatReport(run_) << std::flush;
     if (options_.json.empty())
@@ -124,7 +143,6 @@ private:
     return store_.get(scan);
   };
   ScanSet scans_;
-  std::vector<ScanRelation> relations_;
   MapRun run_;
 };
 

@@ -3,23 +3,15 @@
 
 #include "map_run.h"
 
-#include <algorithm>
-
 namespace pcl_flashreg::map {
 
-std::size_t
-numberOfMaps(const MultiviewResult& result)
+std::vector<std::string>
+namesOf(const MapRun& run)
 {
-  return static_cast<std::size_t>(
-      std::count_if(result.groups.begin(), result.groups.end(), [](const auto& group) {
-        return group.size() > 1;
-      }));
-}
-
-bool
-isPlaced(const MultiviewResult& result, std::size_t scan)
-{
-  return result.groups[result.scans[scan].group].size() > 1;
+  std::vector<std::string> names;
+  for (const ScanFile& scan : run.scans)
+    names.push_back(scan.name);
+  return names;
 }
 
 } // namespace pcl_flashreg::map

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "groups.h"
 #include "scan_files.h"
 
 #include <pcl_flashreg/multiview_registration.h>
@@ -17,6 +18,12 @@ namespace pcl_flashreg::map {
 struct LeftOutFile {
   std::string path;
   std::string reason;
+};
+
+/** \brief A merged cloud that was written. */
+struct WrittenCloud {
+  std::string path;
+  std::size_t points = 0;
 };
 
 /** \brief Milliseconds. */
@@ -35,15 +42,12 @@ struct MapRun {
   /** \brief Pairs of scans that were tried, and those of them that an earlier run had. */
   std::size_t pairs = 0, known_pairs = 0;
   MultiviewResult result;
+  std::vector<WrittenCloud> clouds;
   MapTimes times;
 };
 
-/** \brief Groups of more than one scan: they come first. */
-std::size_t
-numberOfMaps(const MultiviewResult& result);
-
-/** \brief Whether the scan belongs to a group with others. */
-bool
-isPlaced(const MultiviewResult& result, std::size_t scan);
+/** \brief Of the scans. */
+std::vector<std::string>
+namesOf(const MapRun& run);
 
 } // namespace pcl_flashreg::map

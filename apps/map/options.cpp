@@ -7,6 +7,7 @@
 #include "../io/raw_bin.h"
 #include "../program/command_line.h"
 #include "../program/help_text.h"
+#include "map_picture.h"
 
 #include <pcl_flashreg/estimator.h>
 
@@ -116,6 +117,14 @@ addOutputs(CLI::App& app, Options& options, Words& words)
            options.graph,
            "The pose graph: VERTEX_SE3:QUAT and EDGE_SE3:QUAT",
            "FILE.g2o");
+  add_file("--picture",
+           options.picture,
+           "The maps from above, each scan in its color; needs no display",
+           "FILE.png");
+  add_file("--page",
+           options.page,
+           "What was done, and how far it can be trusted, on a page of Markdown",
+           "FILE.md");
   add_file("--json", options.json, "Everything as JSON; - for standard output");
   app.add_flag("--largest-only",
                options.largest_only,
@@ -215,12 +224,31 @@ takePaths(const Words& words, Options& options)
   options.scans.pop_back();
 }
 
+/** \brief The options that were given, with their values. */
+std::vector<std::string>
+typedOptions(const CLI::App& app)
+{
+  std::vector<std::string> typed;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || option->get_positional())
+      continue;
+    typed.push_back(option->get_name());
+    if (option->get_items_expected_max() > 0)
+      typed.back() += ' ' + option->as<std::string>();
+  }
+  return typed;
+}
+
 /** \brief "map.pairs.csv" beside "map.pcd"; nothing if nothing is written. */
 std::string
 defaultPairs(const Options& options)
 {
-  for (const std::string& output :
-       {options.output, options.poses, options.graph, options.json})
+  for (const std::string& output : {options.output,
+                                    options.poses,
+                                    options.graph,
+                                    options.picture,
+                                    options.page,
+                                    options.json})
     if (!output.empty() && output != "-")
       return fs::path(output).replace_extension(".pairs.csv").string();
   return "";
@@ -241,6 +269,9 @@ check(const Options& options)
     throw UsageError("a folder of scans is needed (--help tells more)");
   if (!options.output.empty() && !io::isWritableCloudPath(options.output))
     throw UsageError(options.output + ": clouds are written as .pcd or .ply");
+  if (!options.picture.empty() && !kMapPictureBuiltIn)
+    throw UsageError("--picture is not built into this program (Cairo was not found "
+                     "when it was built)");
   checkLength("--leaf", options.leaf);
   checkLength("--map-leaf", options.map_leaf);
   if (!(options.min_confidence > 0 && options.min_confidence < 1))
@@ -275,6 +306,7 @@ parseOptions(int argc, char** argv)
   if (!program::parse(app, argc, argv))
     return std::nullopt;
   takePaths(words, options);
+  options.typed = typedOptions(app);
   options.viewpoint_known = !words.no_viewpoint;
   if (!words.shard.empty())
     options.shard = batch::parseShard(words.shard);

@@ -39,12 +39,16 @@ struct Options {
   PoseFormat pose_format = PoseFormat::Tum;
   std::string graph;
   std::string json;
+  /** \brief The map from above. */
+  std::string picture;
+  /** \brief What was done and how far to trust it, as Markdown. */
+  std::string page;
   /** \brief Groups but the largest are not written. */
   bool largest_only = false;
   bool quiet = false;
 
   std::optional<double> leaf;
-  double min_confidence = 0.9;
+  double min_confidence = MultiviewOptions().min_confidence;
   bool sequence = false;
   unsigned threads = 0;
   /** \brief Where scans are kept that don't fit into memory. */
@@ -56,6 +60,9 @@ struct Options {
   bool add = false;
   /** \brief Nothing: the whole work. */
   std::optional<batch::Shard> shard;
+
+  /** \brief Options as typed, for those who read of the run later. */
+  std::vector<std::string> typed;
 
   MultiviewOptions
   multiview() const;

@@ -6,6 +6,7 @@
 #include "../io/file.h"
 #include "../program/output_paths.h"
 #include "graph.h"
+#include "map_picture.h"
 #include "merged_cloud.h"
 #include "poses.h"
 #include "report.h"
@@ -53,7 +54,7 @@ checkFolders(const Options& options)
   }
 }
 
-void
+WrittenCloud
 writeCloudOf(const Options& options,
              const MapRun& run,
              std::size_t map,
@@ -64,8 +65,10 @@ writeCloudOf(const Options& options,
   std::vector<MapInput> inputs;
   for (const std::size_t scan : run.result.groups[map])
     inputs.push_back({run.scans[scan].path, run.result.scans[scan].T_group_scan});
-  writeMergedCloud(
-      inputs, options.map_leaf.value_or(run.resolution), path, options.bin_fields);
+  return {
+      path,
+      writeMergedCloud(
+          inputs, options.map_leaf.value_or(run.resolution), path, options.bin_fields)};
 }
 
 void
@@ -115,8 +118,13 @@ checkOutputs(const Options& options, const std::vector<ScanFile>& files)
   std::vector<std::string> inputs{options.list};
   for (const ScanFile& file : files)
     inputs.push_back(file.path);
-  std::vector<std::string> outputs{
-      options.output, options.poses, options.graph, options.json, options.pairs};
+  std::vector<std::string> outputs{options.output,
+                                   options.poses,
+                                   options.graph,
+                                   options.picture,
+                                   options.page,
+                                   options.json,
+                                   options.pairs};
   // Only what is there can be a scan.
   for (const std::string& path : outputsOfMaps(options))
     for (std::size_t map = 1; map < files.size() / 2; ++map)
@@ -126,8 +134,11 @@ checkOutputs(const Options& options, const std::vector<ScanFile>& files)
   checkFolders(options);
 }
 
-void
-writeOutputs(const Options& options, const MapRun& run, const Messages& messages)
+std::vector<WrittenCloud>
+writeOutputs(const Options& options,
+             const MapRun& run,
+             const MultiviewRegistration::ScanSource& source,
+             const Messages& messages)
 {
   std::size_t maps = numberOfMaps(run.result);
   if (options.largest_only)
@@ -136,10 +147,14 @@ writeOutputs(const Options& options, const MapRun& run, const Messages& messages
     writePoses(options, run, maps);
   if (!options.graph.empty())
     io::writeFile(options.graph, formatG2o(run.result));
+  if (!options.picture.empty())
+    writeMapPicture(options.picture, namesOf(run), run.result, source);
+  std::vector<WrittenCloud> clouds;
   if (!options.output.empty())
     for (std::size_t map = 0; map < maps; ++map)
-      writeCloudOf(options, run, map, messages);
+      clouds.push_back(writeCloudOf(options, run, map, messages));
   noteMissing(options, maps, messages);
+  return clouds;
 }
 
 } // namespace pcl_flashreg::map

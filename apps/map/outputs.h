@@ -24,11 +24,14 @@ pathOfMap(const std::string& path, std::size_t map);
 void
 checkOutputs(const Options& options, const std::vector<ScanFile>& files);
 
-/** \brief Writes clouds, poses and the graph; not the JSON, which knows how long that took.
+/** \brief Writes clouds, poses, the graph and the picture; not the page and the JSON, which
+ * tell how long that took.
+ * \return the merged clouds
  * \throws io::InputError if a file can't be read again, or not be written */
-void
+std::vector<WrittenCloud>
 writeOutputs(const Options& options,
              const MapRun& run,
+             const MultiviewRegistration::ScanSource& source,
              const program::Messages& messages);
 
 } // namespace pcl_flashreg::map

@@ -3,12 +3,12 @@
 
 #include "report.h"
 
+#include "../program/rounded.h"
+#include "page.h"
+
 #include <pcl_flashreg/impl/number_text.hpp>
 
 #include <algorithm>
-#include <iomanip>
-#include <locale>
-#include <sstream>
 
 namespace pcl_flashreg::map {
 namespace {
@@ -18,10 +18,7 @@ constexpr std::size_t WIDTH = 88, MARGIN = 12;
 std::string
 seconds(double milliseconds)
 {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(1) << milliseconds / 1000;
-  return text.str();
+  return program::rounded(milliseconds / 1000, 1);
 }
 
 /** \brief "title       item, item," in lines of bearable length. */
@@ -95,22 +92,37 @@ formatLeftOut(const MapRun& run)
 std::string
 formatPairs(const MapRun& run)
 {
+  std::vector<std::string> items{std::to_string(run.pairs) + " registered"};
+  if (run.known_pairs > 0)
+    items.push_back(std::to_string(run.known_pairs) + " of them by earlier runs");
+  return formatList("pairs", items);
+}
+
+/** \brief More than pairs were registered: all whose surfaces touch in the map. */
+std::string
+formatEdges(const MapRun& run)
+{
   std::size_t used = 0, disagree = 0, apart = 0;
   for (const MapEdge& edge : run.result.edges) {
     used += edge.fate == EdgeFate::Used ? 1 : 0;
     disagree += edge.fate == EdgeFate::Disagrees ? 1 : 0;
     apart += edge.fate == EdgeFate::Apart ? 1 : 0;
   }
-  std::vector<std::string> items{std::to_string(run.pairs) + " tried"};
-  if (run.known_pairs > 0)
-    items.push_back(std::to_string(run.known_pairs) + " of them by earlier runs");
-  items.push_back(std::to_string(used) + " used");
+  std::vector<std::string> items{std::to_string(used) + " used"};
   if (disagree > 0)
     items.push_back(std::to_string(disagree) + " that the map contradicts");
   if (apart > 0)
-    items.push_back(std::to_string(apart) +
-                    " that are too doubtful to tie scans together");
-  return formatList("pairs", items);
+    items.push_back(std::to_string(apart) + " too doubtful to tie scans together");
+  return formatList("edges", items);
+}
+
+std::string
+formatClouds(const MapRun& run)
+{
+  std::vector<std::string> items;
+  for (const WrittenCloud& cloud : run.clouds)
+    items.push_back(cloud.path + " (" + std::to_string(cloud.points) + " points)");
+  return items.empty() ? "" : formatList("written", items);
 }
 
 std::string
@@ -136,12 +148,29 @@ std::string
 formatReport(const MapRun& run)
 {
   return formatVerdict(run) + '\n' + formatGroups(run) + formatLeftOut(run) +
-         formatPairs(run) +
+         formatPairs(run) + formatEdges(run) +
          formatList(
              "resolution",
              {detail::toText(run.resolution) +
               (run.resolution_estimated ? " (estimated; --leaf sets another)" : "")}) +
-         formatTimes(run);
+         formatClouds(run) + formatTimes(run);
+}
+
+std::string
+formatPageOf(const MapRun& run, const std::vector<std::string>& options)
+{
+  const std::vector<std::string> names = namesOf(run);
+  const MapTimes& times = run.times;
+  return formatPage({names,
+                     run.result,
+                     run.pairs,
+                     run.resolution,
+                     options,
+                     {{"reading", times.reading},
+                      {"pairs", times.relations},
+                      {"placing", times.placing},
+                      {"writing", times.writing},
+                      {"total", times.total}}});
 }
 
 } // namespace pcl_flashreg::map

@@ -6,6 +6,7 @@
 #include "map_run.h"
 
 #include <string>
+#include <vector>
 
 namespace pcl_flashreg::map {
 
@@ -16,6 +17,11 @@ isComplete(const MapRun& run);
 /** \brief The outcome for a person, several lines: the verdict in the first. */
 std::string
 formatReport(const MapRun& run);
+
+/** \brief The outcome on a page, see formatPage().
+ * \param[in] options as they were typed */
+std::string
+formatPageOf(const MapRun& run, const std::vector<std::string>& options);
 
 /** \brief Times differ from run to run; all else is the same to the last byte. */
 enum class WithTimes { No, Yes };
