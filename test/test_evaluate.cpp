@@ -5,6 +5,7 @@
 // shards and ranks.
 
 #include "evaluate_support.h"
+#include "support/ranks.h"
 
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
@@ -281,23 +282,6 @@ TEST_F(Evaluate, shardsMergeToTheSameFile)
 
 class EvaluateRanks : public Evaluate {
 protected:
-  /** \brief As root and on more ranks than processors, in Open MPI's words; what it leaks is
-   * not ours. */
-  ProgramRun
-  onRanks(int ranks, const std::string& arguments) const
-  {
-#ifdef PCL_FLASHREG_MPIEXEC
-    return evaluate(arguments,
-                    "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                    "OMPI_MCA_rmaps_base_oversubscribe=1 ASAN_OPTIONS=detect_leaks=0 "
-                    "'" PCL_FLASHREG_MPIEXEC "' -n " +
-                        std::to_string(ranks));
-#else
-    static_cast<void>(ranks);
-    return evaluate(arguments);
-#endif
-  }
-
   void
   SetUp() override
   {
@@ -313,7 +297,8 @@ protected:
 
 TEST_F(EvaluateRanks, makeTheSameFile)
 {
-  const ProgramRun run = onRanks(4, ". --csv r.csv --threads 1 --json r.json");
+  const ProgramRun run =
+      evaluate(". --csv r.csv --threads 1 --json r.json", onRanks(4));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(read("r.csv"), read("whole.csv"));
   EXPECT_EQ(lines("r.times.csv"), lines("whole.times.csv"));
@@ -347,7 +332,7 @@ TEST_F(EvaluateRanks, goOnFromTheirParts)
   writePart("r.csv", "r.times.csv", 0, 1);
   writePart("r.csv.rank0", "r.csv.times.rank0", 4, 5);
   writePart("r.csv.rank2", "r.csv.times.rank2", 5, 7);
-  const ProgramRun run = onRanks(2, ". --csv r.csv --threads 1 --resume");
+  const ProgramRun run = evaluate(". --csv r.csv --threads 1 --resume", onRanks(2));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(read("r.csv"), whole);
   // The rows that were there have not been computed again: their times are the same.
@@ -356,10 +341,10 @@ TEST_F(EvaluateRanks, goOnFromTheirParts)
 
 TEST_F(EvaluateRanks, failTogether)
 {
-  EXPECT_NE(onRanks(2, ".").status, 0) << "without --csv";
+  EXPECT_NE(evaluate(".", onRanks(2)).status, 0) << "without --csv";
   EXPECT_NE(read(".err").find("several ranks need --csv"), std::string::npos);
   write("b/cloud_bin_102+cloud_bin_103@corr.txt", "nonsense\n");
-  EXPECT_NE(onRanks(2, ". --csv r.csv").status, 0);
+  EXPECT_NE(evaluate(". --csv r.csv", onRanks(2)).status, 0);
   EXPECT_NE(read(".err").find("@corr.txt: line 1: "), std::string::npos);
 }
 

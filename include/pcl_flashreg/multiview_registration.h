@@ -23,9 +23,11 @@ struct RelativePose {
   int inliers = 0;
 };
 
-/** \brief What two scans say of each other. */
+/** \brief What two scans say of each other. Asked the other way round, with source and target
+ * exchanged, they may say something else: where both ways were asked, they speak with half
+ * their voice each. */
 struct ScanRelation {
-  /** \brief Numbers of the scans; the target has the smaller one. */
+  /** \brief Numbers of the scans. */
   std::size_t source = 0, target = 0;
   /** \brief The most probable first: rivals of a wrong one may be right. Empty where none was
    * found. */
@@ -89,7 +91,8 @@ struct MultiviewResult {
   /** \brief Numbers of the scans of each group, ascending; the largest group first, of
    * equally large ones the one with the smallest number. */
   std::vector<std::vector<std::size_t>> groups;
-  /** \brief One for every pair that was found to have a pose, by target and source. */
+  /** \brief One for every pair that was found to have a pose, by target and source; the target has
+   * the smaller number. */
   std::vector<MapEdge> edges;
   MultiviewTimings timings;
 
@@ -104,7 +107,11 @@ struct MultiviewOptions {
   PairOptions pair;
   /** \brief A scan stays in a group if its confidence is at least this; (0, 1). */
   double min_confidence = 0.9;
-  /** \brief Of more scans only promising pairs are tried. */
+  /** \brief Each scan is tried with so many others at first, those that are most like it by their
+   * descriptors; >= 1. */
+  std::size_t alike = 12;
+  /** \brief Up to so many scans, all pairs of scans that the map does not tie to each other are
+   * tried after that; of more, some rounds of as many again. */
   std::size_t all_pairs_up_to = 150;
   /** \brief Whether the scans are in the order in which they were made: each is tried with the
    * next few in any case. */
@@ -118,9 +125,10 @@ struct MultiviewOptions {
 /** \brief Registers any number of scans with each other, in any order, without odometry or
  * guess: multiway registration.
  *
- * All pairs are registered, and each keeps its rivals. Groups of scans then grow together
- * where pairs vouch for each other and the clouds of both groups, all of them, agree; poses
- * come from a graph of all pairs whose surfaces touch (docs/method.md).
+ * Pairs are registered, those first that look alike, and each keeps its rivals. Groups of
+ * scans then grow together where pairs vouch for each other and the clouds of both groups,
+ * all of them, agree; poses come from a graph of all pairs that agree with the map. What is
+ * not tied then is tried with all others (docs/method.md).
  *
  * The same result to the last bit on any number of threads; the order of the scans is that of
  * their numbers.
@@ -145,14 +153,24 @@ public:
   static std::vector<ScanPair>
   allPairs(std::size_t scans);
 
-  /** \brief The pairs that are worth a try: all, while they are few; of more scans than
-   * MultiviewOptions::all_pairs_up_to those whose descriptors are most alike, and neighbours in
-   * a sequence.
-   * \param[in] count number of scans */
+  /** \brief The pairs to begin with: each scan with those that are most like it.
+   * \param[in] count number of scans
+   * \throws std::invalid_argument if an option is out of range */
   std::vector<ScanPair>
   choosePairs(std::size_t count,
               const ScanSource& scans,
-              const MultiviewOptions& options = {}) const;
+              const MultiviewOptions& options = {});
+
+  /** \brief The pairs to go on with, of scans that the map does not tie to each other: those that
+   * have not been tried; once there are none, those that promised something, the other way
+   * round. None where there is nothing left to do.
+   * \param[in] tried all so far
+   * \param[in] map made from them */
+  std::vector<ScanPair>
+  choosePairs(const ScanSource& scans,
+              const std::vector<ScanRelation>& tried,
+              const MultiviewResult& map,
+              const MultiviewOptions& options = {});
 
   /** \brief Registers pairs, one a thread.
    * \return in the order of the pairs
@@ -166,7 +184,7 @@ public:
    * needed any more.
    * \param[in] count number of scans
    * \throws std::invalid_argument if an option is out of range, if a relation names a scan
-   * that is none, or if two are of the same pair */
+   * that is none, or if two are of the same source and target */
   MultiviewResult
   place(std::size_t count,
         const ScanSource& scans,

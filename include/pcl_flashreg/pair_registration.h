@@ -59,6 +59,11 @@ struct PairOptions {
   /** \brief Whether the clouds judge the hypotheses, too, wherever there are clouds. */
   bool cloud_check = true;
 
+  /** \brief Whether to spend no more time on a pair once none of its poses can become certain:
+   * most pairs of a large set don't overlap. What is found is then not looked at any closer,
+   * and its confidence is next to 0. */
+  bool give_up_early = false;
+
   /** \brief A pose that is tried like any other hypothesis. */
   std::optional<RigidTransform> guess;
 

@@ -39,6 +39,21 @@ constexpr int WALKS = 3;
  * more certain with them than that is not overruled. */
 constexpr double LEAST_TO_OVERRULE = 0.01, NOT_TO_OVERRULE = 0.9;
 
+/** \brief A pose that is less certain than this, whatever its walk would say, is hopeless. */
+constexpr double HOPELESS = 0.1;
+/** \brief Poses that are judged without the viewpoints where nobody wants to wait. */
+constexpr std::size_t FAVOURITES_IN_A_HURRY = 8;
+
+/** \brief Before the walk: were the pose held as firmly as most right ones are. */
+bool
+isHopeless(Evidence evidence)
+{
+  constexpr double HOLD = 2, STIFFNESS = 0.05;
+  evidence.hold = HOLD;
+  evidence.stiffness = STIFFNESS;
+  return confidenceOfClouds(evidence) < HOPELESS;
+}
+
 class CloudCheck {
 public:
   CloudCheck(const SurfacePair& clouds,
@@ -73,9 +88,14 @@ public:
 
   /** \brief Ranks the poses and gathers the evidence for the best. */
   CloudFindings
-  judge(bool with_viewpoints)
+  judge(bool with_viewpoints, bool give_up_early)
   {
     std::size_t best = bestOf(with_viewpoints);
+    if (give_up_early) {
+      const CloudFindings so_far = findings(with_viewpoints);
+      if (isHopeless(so_far.evidence))
+        return so_far;
+    }
     walk(best);
     for (int walks = 1; walks < WALKS; ++walks) {
       study(peaksOf(walks_, with_viewpoints, TAKEN_UP));
@@ -213,6 +233,7 @@ checkOnClouds(const SurfacePair& clouds,
               const std::vector<Pose>& hypotheses,
               const std::vector<ScoredPose>& favourites,
               float inlier_distance,
+              bool give_up_early,
               ThreadPool& pool)
 {
   std::vector<Pose> list;
@@ -227,11 +248,13 @@ checkOnClouds(const SurfacePair& clouds,
   const auto judge = [&](const SurfacePair& with_or_without) {
     CloudCheck check(with_or_without, problem, inlier_distance, half_side, pool);
     check.study(list);
-    return check.judge(with_or_without.seeing());
+    return check.judge(with_or_without.seeing(), give_up_early);
   };
   CloudFindings seeing = judge(clouds);
   if (!clouds.seeing() || confidenceOfClouds(seeing.evidence) > NOT_TO_OVERRULE)
     return seeing;
+  if (give_up_early)
+    list.resize(std::min(list.size(), FAVOURITES_IN_A_HURRY));
   CloudFindings blind = judge({clouds.source, clouds.target, clouds.spacing, false});
   blind.evidence.overruled_viewpoints = true;
   // What is more certain without the viewpoints says that they are wrong.

@@ -41,6 +41,7 @@ struct CloudFindings {
  * \param[in] hypotheses to be screened, in the centred frames of the problem
  * \param[in] favourites poses that skip the screening
  * \param[in] inlier_distance as in Parameters
+ * \param[in] give_up_early see PairOptions
  * \return no pose, if a cloud has no points
  */
 CloudFindings
@@ -49,6 +50,7 @@ checkOnClouds(const SurfacePair& clouds,
               const std::vector<Pose>& hypotheses,
               const std::vector<ScoredPose>& favourites,
               float inlier_distance,
+              bool give_up_early,
               ThreadPool& pool);
 
 } // namespace pcl_flashreg

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pcl_flashreg {
 namespace {
@@ -13,9 +12,13 @@ namespace {
 /** \brief Ways for two groups to lie to each other that the clouds are asked about. */
 constexpr std::size_t PLACEMENTS = 10;
 
-/** \brief Logarithm of the odds that votes alone can give: pairs that see the same place err
+/** \brief Weights of the votes and of the harmony of the clouds in the logarithm of a
+ * placement's likelihood, and that of there being none: a conditional logistic regression. */
+constexpr double BY_VOTES = 0.5, BY_HARMONY = 1.52, NONE = 6.83;
+
+/** \brief By how much votes can speak against none: pairs that see the same place err
  * together, however many they are. */
-constexpr double MOST_BY_VOTES = 7;
+constexpr double MOST_AGAINST_NONE = 12;
 
 /** \brief The logarithm of a sum of exponentials. */
 double
@@ -25,16 +28,32 @@ logSum(double a, double b)
   return high + std::log1p(std::exp(low - high));
 }
 
-/** \brief Of the first placement against all others and none. */
+double
+weightOf(const Placement& placement)
+{
+  return BY_VOTES * placement.votes + BY_HARMONY * placement.harmony;
+}
+
+/** \brief The logarithm of the odds of the first placement against all others and none. */
 double
 oddsOf(const Placements& placements)
 {
-  if (placements.best.empty())
-    return -std::numeric_limits<double>::infinity();
+  const Placement& best = placements.best.front();
+  double others =
+      NONE + BY_VOTES * std::max(placements.none, best.votes - MOST_AGAINST_NONE);
+  for (std::size_t i = 1; i < placements.best.size(); ++i)
+    others = logSum(others, weightOf(placements.best[i]));
+  return weightOf(best) - others;
+}
+
+/** \brief The same by the votes alone, as if pairs erred by themselves. */
+double
+oddsOfVotes(const Placements& placements)
+{
   double others = placements.none;
   for (std::size_t i = 1; i < placements.best.size(); ++i)
-    others = logSum(others, placements.best[i].weight);
-  return placements.best.front().weight - others;
+    others = logSum(others, placements.best[i].votes);
+  return placements.best.front().votes - others;
 }
 
 } // namespace
@@ -48,12 +67,13 @@ count(Bond& bond, const BondEnds& ends, const MapScans& scans, const MapPoses& p
   const double spacing = scans(ends.moving.front())->spacing;
   Placements& placements = bond.placements;
   placements = countVotes(bond.pairs, is_moving, poses, spacing, PLACEMENTS);
-  bond.urgency = oddsOf(placements);
-  if (!placements.best.empty())
-    placements.none =
-        std::max(placements.none, placements.best.front().weight - MOST_BY_VOTES);
-  bond.prospect = oddsOf(placements);
-  bond.judged = false;
+  for (Placement& placement : placements.best)
+    placement.harmony = HARMONY;
+  bond.urgency = oddsOfVotes(placements);
+  // A pair has asked its clouds already.
+  bond.judged = ends.fixed.size() == 1 && ends.moving.size() == 1;
+  bond.prospect =
+      bond.judged ? bond.urgency : oddsOf({{placements.best.front()}, placements.none});
 }
 
 void
@@ -67,17 +87,28 @@ judge(Placement& placement,
       judgement.meetings(ends.fixed, ends.moving, placement.T_fixed_moving);
   placement.T_fixed_moving =
       judgement.moveOntoFixed(meetings, placement.T_fixed_moving);
-  placement.weight +=
-      judgement.agreement(meetings, placement.T_fixed_moving).logOdds();
+  placement.harmony = judgement.agreement(meetings, placement.T_fixed_moving).harmony();
 }
 
 void
-conclude(Bond& bond)
+conclude(Bond& bond, const BondEnds& ends, const MapScans& scans, const MapPoses& poses)
 {
-  std::vector<Placement>& best = bond.placements.best;
-  std::stable_sort(best.begin(), best.end(), [](const auto& a, const auto& b) {
-    return a.weight > b.weight;
+  std::vector<Placement> judged = std::move(bond.placements.best);
+  std::stable_sort(judged.begin(), judged.end(), [](const auto& a, const auto& b) {
+    return weightOf(a) > weightOf(b);
   });
+  // On the surfaces some turn out to be the same.
+  const std::size_t some = ends.moving.front();
+  const double spacing = scans(some)->spacing;
+  std::vector<Placement>& best = bond.placements.best;
+  best.clear();
+  for (const Placement& placement : judged)
+    if (std::none_of(best.begin(), best.end(), [&](const Placement& other) {
+          return samePlace(placement.T_fixed_moving * poses[some],
+                           other.T_fixed_moving * poses[some],
+                           spacing);
+        }))
+      best.push_back(placement);
   bond.prospect = oddsOf(bond.placements);
   bond.judged = true;
 }

@@ -16,7 +16,7 @@ struct Bond {
   /** \brief Pairs of a scan of the one and a scan of the other. */
   std::vector<const PairVotes*> pairs;
   Placements placements;
-  /** \brief How sure the best placement is: the logarithm of its odds, by the votes alone until
+  /** \brief How sure the best placement is: the logarithm of its odds; the most it can be, until
    * the clouds were asked. */
   double prospect = 0;
   /** \brief The same by the votes alone, as if pairs erred by themselves. */
@@ -49,6 +49,9 @@ judge(Placement& placement,
 
 /** \brief Ranks the placements, all of which have been judged. */
 void
-conclude(Bond& bond);
+conclude(Bond& bond,
+         const BondEnds& ends,
+         const MapScans& scans,
+         const MapPoses& poses);
 
 } // namespace pcl_flashreg

@@ -15,10 +15,10 @@
 namespace pcl_flashreg {
 namespace {
 
-/** \brief By the votes; of a bond with less the clouds are not asked. */
-constexpr double LEAST_PROSPECT = 1;
 /** \brief Logarithm of odds that need not wait for what else may turn out. */
-constexpr double CERTAIN = 8;
+constexpr double CERTAIN = 4;
+/** \brief A scan leaves its group with less confidence. */
+constexpr double LEAST_TO_STAY = 0.5;
 /** \brief Poses are optimized when a group has grown by this share. */
 constexpr double GROWN = 0.2;
 
@@ -95,7 +95,7 @@ private:
     pool_.forEach(placements.size(), [&](std::size_t i, std::size_t) {
       judge(placements[i], ends, scans_, map_.poses);
     });
-    conclude(bond);
+    conclude(bond, ends, scans_, map_.poses);
   }
 
   /** \brief In which order bonds are looked at, none if never: those that are certain, then
@@ -103,13 +103,10 @@ private:
   std::optional<double>
   urgencyOf(const Bond& bond) const
   {
-    if (!bond.judged)
-      return bond.prospect > LEAST_PROSPECT
-                 ? std::optional(std::max(bond.urgency, CERTAIN))
-                 : std::nullopt;
     if (bond.prospect < least_odds_)
       return std::nullopt;
-    return bond.prospect < CERTAIN ? bond.prospect : std::max(bond.urgency, CERTAIN);
+    return bond.judged && bond.prospect < CERTAIN ? bond.prospect
+                                                  : std::max(bond.urgency, CERTAIN);
   }
 
   Bonds::iterator
@@ -192,14 +189,14 @@ private:
   std::map<std::size_t, std::vector<const PairVotes*>> within_;
 };
 
-/** \brief Whether the scan would be put where it is, if all others of its group were there
- * already. */
-bool
-belongs(std::size_t scan,
-        const std::vector<std::size_t>& group,
-        const std::vector<PairVotes>& pairs,
-        const MapScans& scans,
-        const MapPoses& poses)
+/** \brief How sure it is that the scan would be put where it is, if all others of its group were
+ * there already: the logarithm of the odds; nothing, if it would be put elsewhere. */
+std::optional<double>
+oddsToStay(std::size_t scan,
+           const std::vector<std::size_t>& group,
+           const std::vector<PairVotes>& pairs,
+           const MapScans& scans,
+           const MapPoses& poses)
 {
   std::vector<std::size_t> others = group;
   others.erase(std::find(others.begin(), others.end(), scan));
@@ -212,17 +209,18 @@ belongs(std::size_t scan,
       bond.pairs.push_back(&pair);
   }
   if (bond.pairs.empty())
-    return false;
+    return std::nullopt;
   const std::vector<std::size_t> itself{scan};
   const BondEnds ends{others, itself};
   count(bond, ends, scans, poses);
-  for (Placement& placement : bond.placements.best)
-    judge(placement, ends, scans, poses);
-  conclude(bond);
-  return bond.prospect >= 0 &&
-         samePlace(bond.best().T_fixed_moving * poses[scan],
-                   poses[scan],
-                   scans(scan)->spacing);
+  if (!bond.judged) {
+    for (Placement& placement : bond.placements.best)
+      judge(placement, ends, scans, poses);
+    conclude(bond, ends, scans, poses);
+  }
+  const bool stays = samePlace(
+      bond.best().T_fixed_moving * poses[scan], poses[scan], scans(scan)->spacing);
+  return stays ? std::optional(bond.prospect) : std::nullopt;
 }
 
 /** \brief Parts of a group that pairs tie together whose most probable pose is the map's. */
@@ -270,28 +268,39 @@ joinGroups(const MapScans& scans,
   return Joining(scans, pairs, std::move(start), least_odds, pool).run();
 }
 
+std::vector<double>
+confidencesOf(const MapScans& scans,
+              const std::vector<PairVotes>& pairs,
+              const Grouping& map,
+              ThreadPool& pool)
+{
+  std::vector<const std::vector<std::size_t>*> group_of(map.poses.size());
+  for (const std::vector<std::size_t>& group : map.groups)
+    for (const std::size_t scan : group)
+      group_of[scan] = &group;
+  std::vector<double> confidences(map.poses.size());
+  pool.forEach(confidences.size(), [&](std::size_t scan, std::size_t) {
+    if (group_of[scan]->size() < 2)
+      return;
+    const auto odds = oddsToStay(scan, *group_of[scan], pairs, scans, map.poses);
+    confidences[scan] = odds ? 1 / (1 + std::exp(-*odds)) : 0;
+  });
+  return confidences;
+}
+
 std::size_t
 releaseDoubtful(const MapScans& scans,
                 const std::vector<PairVotes>& pairs,
                 Grouping& map,
                 ThreadPool& pool)
 {
-  std::vector<const std::vector<std::size_t>*> group_of(map.poses.size());
-  for (const std::vector<std::size_t>& group : map.groups)
-    for (const std::size_t scan : group)
-      group_of[scan] = &group;
-  std::vector<char> stays(map.poses.size(), 1);
-  pool.forEach(stays.size(), [&](std::size_t scan, std::size_t) {
-    if (group_of[scan]->size() > 2)
-      stays[scan] =
-          belongs(scan, *group_of[scan], pairs, scans, map.poses) ? 1 : 0;
-  });
+  const std::vector<double> confidences = confidencesOf(scans, pairs, map, pool);
   std::size_t released = 0;
   std::vector<std::vector<std::size_t>> groups;
   for (const std::vector<std::size_t>& group : map.groups) {
     std::vector<std::size_t> kept;
     for (const std::size_t scan : group)
-      if (stays[scan] != 0)
+      if (group.size() == 1 || confidences[scan] >= LEAST_TO_STAY)
         kept.push_back(scan);
       else {
         groups.push_back({scan});

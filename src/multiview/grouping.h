@@ -28,6 +28,14 @@ joinGroups(const MapScans& scans,
            double min_confidence,
            ThreadPool& pool);
 
+/** \brief Of each scan, how sure it is that it would be put where it is, if all others of its
+ * group were there already; 0 of one that is alone. */
+std::vector<double>
+confidencesOf(const MapScans& scans,
+              const std::vector<PairVotes>& pairs,
+              const Grouping& map,
+              ThreadPool& pool);
+
 /** \brief Takes scans out of their groups that would not be put where they are, if all others
  * were there already; what only they tied together falls apart.
  * \return how many */

@@ -17,6 +17,9 @@ namespace {
 constexpr std::size_t POINTS = 256;
 constexpr float TOLERANCE = 1.5f, MARGIN = 2;
 
+/** \brief Points that are moved onto the surfaces: of all pairs together, and of one at least. */
+constexpr std::size_t POINTS_MOVED = 4000, LEAST_POINTS_MOVED = 64;
+
 /** \brief Pairs of scans that are asked at most. */
 constexpr std::size_t MOST_MEETINGS = 48;
 
@@ -34,18 +37,14 @@ clouds(const MapScan& source, const MapScan& target)
 } // namespace
 
 double
-JointAgreement::logOdds() const
+JointAgreement::harmony() const
 {
-  // Fitted by eye to right and wrong placements of rooms: of the right ones nine in ten are
-  // above 2.4, of the wrong ones all below 1.4.
-  // More points that match say little more: the pairs have seen them, and a wrong place at the
-  // edge of what is known is not contradicted either.
-  constexpr double EVEN = 2.2, STEEP = 6, LEAST = -15, MOST = 2;
+  // What groups without viewpoints say is neither for them nor against them.
+  constexpr double UNKNOWN = 2.5;
   if (!seeing)
-    return 0;
+    return UNKNOWN;
   const double nothing = NOTHING * points;
-  const double quotient = std::log((matched + nothing) / (contradicted + nothing));
-  return std::clamp(STEEP * (quotient - EVEN), LEAST, MOST);
+  return std::min(HARMONY, std::log((matched + nothing) / (contradicted + nothing)));
 }
 
 std::vector<Meeting>
@@ -136,8 +135,11 @@ JointJudgement::moveOntoFixed(const std::vector<Meeting>& meetings,
     contacts.clear();
     Eigen::Isometry3d T = moved;
     T.translation() += origin;
+    Reach reach = reachOf(round);
+    reach.points = std::min(
+        reach.points, std::max(LEAST_POINTS_MOVED, POINTS_MOVED / meetings.size()));
     for (const Meeting& meeting : meetings)
-      addContacts(meeting, T, reachOf(round), origin, contacts);
+      addContacts(meeting, T, reach, origin, contacts);
     const auto spacing = static_cast<float>(scans_(meetings.front().moving)->spacing);
     const std::optional<PlaneStep> step = stepOntoPlanes(contacts, spacing);
     if (!step)

@@ -6,17 +6,12 @@
 #include "judgement/cpu/contacts.h"
 #include "multiview/map_scan.h"
 
-#include <functional>
-#include <memory>
 #include <vector>
 
 namespace pcl_flashreg {
 
-/** \brief Where map scans come from, by their numbers. */
-using MapScans = std::function<std::shared_ptr<const MapScan>(std::size_t)>;
-
-/** \brief A pose of each scan's middle, in the frame of its group. */
-using MapPoses = std::vector<Eigen::Isometry3d>;
+/** \brief See JointAgreement::harmony(): of nine in ten right placements it is more. */
+constexpr double HARMONY = 3.5;
 
 /** \brief What all clouds of two groups say of how the groups lie to each other. */
 struct JointAgreement {
@@ -27,9 +22,10 @@ struct JointAgreement {
   /** \brief Whether some viewpoint was known: nothing is contradicted elsewhere. */
   bool seeing = false;
 
-  /** \brief Logarithm of the odds that the groups do lie so, by this alone. */
+  /** \brief Logarithm of matched over contradicted, no more than HARMONY, beyond which it says
+   * nothing more. */
   double
-  logOdds() const;
+  harmony() const;
 };
 
 /** \brief Two scans of different groups that may touch. */

@@ -33,8 +33,8 @@ optimizeGroup(std::vector<PoseConstraint> constraints,
               MapPoses& poses)
 {
   const auto positionOf = [&](std::size_t scan) {
-    return static_cast<std::size_t>(
-        std::lower_bound(group.begin(), group.end(), scan) - group.begin());
+    return static_cast<std::size_t>(std::lower_bound(group.begin(), group.end(), scan) -
+                                    group.begin());
   };
   for (PoseConstraint& constraint : constraints) {
     constraint.target = positionOf(constraint.target);
@@ -71,7 +71,8 @@ agreeing(const MapScans& scans, const PairVotes& pair, const MapPoses& poses)
         static_cast<float>(std::max(target->spacing, source->spacing))};
     return SurfaceEdge{
         *constraint,
-        Look(clouds, POINTS, TOLERANCE, MARGIN)(toPose(vote.T_target_source))};
+        Look(clouds, POINTS, TOLERANCE, MARGIN)(toPose(vote.T_target_source)),
+        vote.probability};
   }
   return std::nullopt;
 }
@@ -81,9 +82,10 @@ agreeing(const MapScans& scans, const PairVotes& pair, const MapPoses& poses)
 std::optional<SurfaceEdge>
 touching(const MapScan& target, const MapScan& source, const Eigen::Isometry3d& by_map)
 {
-  const SurfacePair clouds{source.surface,
-                           target.surface,
-                           static_cast<float>(std::max(target.spacing, source.spacing))};
+  const SurfacePair clouds{
+      source.surface,
+      target.surface,
+      static_cast<float>(std::max(target.spacing, source.spacing))};
   const Look look(clouds, POINTS, TOLERANCE, MARGIN);
   if (look(toPose(by_map)).matched < LEAST_MATCHED / 2)
     return std::nullopt;

@@ -29,6 +29,8 @@ struct SurfaceEdge {
   PoseConstraint constraint;
   /** \brief Of the clouds under that pose. */
   CloudAgreement agreement;
+  /** \brief That the pose is right, by these two scans alone; 0 where they don't speak for it. */
+  double probability = 0;
 };
 
 /** \brief Moves the scans of a group so that all surfaces fit that touch, however little the

@@ -16,6 +16,7 @@ MultiviewResult
 reportOf(const Grouping& map,
          const std::vector<SurfaceEdge>& edges,
          const std::vector<PairVotes>& pairs,
+         const std::vector<double>& confidences,
          const MapScans& scans);
 
 } // namespace pcl_flashreg

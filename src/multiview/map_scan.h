@@ -10,6 +10,11 @@
 
 #include <Eigen/Geometry>
 
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
 namespace pcl_flashreg {
 
 /** \brief A scan as the map sees it: a surface about its own middle. Poses within the map are
@@ -30,6 +35,12 @@ struct MapScan {
   double radius = 0;
   double spacing = 0;
 };
+
+/** \brief Where map scans come from, by their numbers. */
+using MapScans = std::function<std::shared_ptr<const MapScan>(std::size_t)>;
+
+/** \brief A pose of each scan's middle, in the frame of its group. */
+using MapPoses = std::vector<Eigen::Isometry3d>;
 
 Pose
 toPose(const Eigen::Isometry3d& T);

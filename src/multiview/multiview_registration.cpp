@@ -6,6 +6,7 @@
 #include <pcl_flashreg/multiview_registration.h>
 
 #include "multiview/map_report.h"
+#include "multiview/pair_choice.h"
 #include "multiview/map_refinement.h"
 #include "multiview/grouping.h"
 #include "multiview/relation.h"
@@ -28,6 +29,8 @@ checkOptions(const MultiviewOptions& options)
     throw std::invalid_argument("min_confidence is " +
                                 std::to_string(options.min_confidence) +
                                 ", but must be in (0, 1)");
+  if (options.alike == 0)
+    throw std::invalid_argument("alike is 0, but must be >= 1");
 }
 
 void
@@ -35,12 +38,12 @@ checkRelations(std::size_t count, const std::vector<ScanRelation>& relations)
 {
   std::set<std::pair<std::size_t, std::size_t>> seen;
   for (const ScanRelation& relation : relations) {
-    const std::string pair = std::to_string(relation.target) + " and " +
-                             std::to_string(relation.source);
-    if (relation.target >= relation.source || relation.source >= count)
-      throw std::invalid_argument("relation between scans " + pair + ": of " +
-                                  std::to_string(count) +
-                                  " scans, and the target first");
+    const std::string pair =
+        std::to_string(relation.target) + " and " + std::to_string(relation.source);
+    if (relation.target == relation.source ||
+        std::max(relation.target, relation.source) >= count)
+      throw std::invalid_argument("relation between scans " + pair + ": there are " +
+                                  std::to_string(count) + ", and a pair has two");
     if (!seen.insert({relation.target, relation.source}).second)
       throw std::invalid_argument("two relations between scans " + pair);
   }
@@ -77,28 +80,6 @@ falseViewpoints(std::size_t count, const std::vector<ScanRelation>& relations)
   return result;
 }
 
-std::vector<PairVotes>
-votesOf(const std::vector<ScanRelation>& relations, const MapScans& scans)
-{
-  std::vector<PairVotes> pairs;
-  for (const ScanRelation& relation : relations) {
-    if (relation.poses.empty())
-      continue;
-    PairVotes pair{relation.target, relation.source, {}};
-    const auto target = scans(relation.target), source = scans(relation.source);
-    for (const RelativePose& pose : relation.poses)
-      pair.votes.push_back(
-          {pose.probability, betweenMiddles(pose.T_target_source, *target, *source)});
-    pairs.push_back(std::move(pair));
-  }
-  std::sort(pairs.begin(), pairs.end(), [](const PairVotes& a, const PairVotes& b) {
-    return std::pair(a.target, a.source) < std::pair(b.target, b.source);
-  });
-  return pairs;
-}
-
-} // namespace
-
 /** \brief Pairs of scans of a group. */
 std::vector<const PairVotes*>
 within(const std::vector<std::size_t>& group, const std::vector<PairVotes>& pairs)
@@ -113,6 +94,8 @@ within(const std::vector<std::size_t>& group, const std::vector<PairVotes>& pair
 
 /** \brief Times that scans are taken out which the finished map does not confirm. */
 constexpr int RECONSIDERED = 3;
+
+} // namespace
 
 class MultiviewRegistration::Impl {
 public:
@@ -133,7 +116,8 @@ MultiviewRegistration::MultiviewRegistration(BackendKind backend, unsigned num_t
 }
 
 MultiviewRegistration::~MultiviewRegistration() = default;
-MultiviewRegistration::MultiviewRegistration(MultiviewRegistration&&) noexcept = default;
+MultiviewRegistration::MultiviewRegistration(MultiviewRegistration&&) noexcept =
+    default;
 MultiviewRegistration&
 MultiviewRegistration::operator=(MultiviewRegistration&&) noexcept = default;
 
@@ -149,11 +133,24 @@ MultiviewRegistration::allPairs(std::size_t scans)
 
 std::vector<MultiviewRegistration::ScanPair>
 MultiviewRegistration::choosePairs(std::size_t count,
-                                   const ScanSource&,
-                                   const MultiviewOptions& options) const
+                                   const ScanSource& scans,
+                                   const MultiviewOptions& options)
 {
   checkOptions(options);
-  return allPairs(count);
+  return firstPairs(Likeness(count, scans, impl_->pool), count, options);
+}
+
+std::vector<MultiviewRegistration::ScanPair>
+MultiviewRegistration::choosePairs(const ScanSource& scans,
+                                   const std::vector<ScanRelation>& tried,
+                                   const MultiviewResult& map,
+                                   const MultiviewOptions& options)
+{
+  checkOptions(options);
+  if (map.groups.size() < 2)
+    return {};
+  const Likeness likeness(map.scans.size(), scans, impl_->pool);
+  return untiedPairs(likeness, tried, map, options);
 }
 
 std::vector<ScanRelation>
@@ -205,21 +202,21 @@ MultiviewRegistration::place(std::size_t count,
   for (int round = 0; round < RECONSIDERED; ++round) {
     for (const std::vector<std::size_t>& group : map.groups)
       refineMap(scans, within(group, pairs), group, map.poses, impl_->pool);
-    const std::size_t released =
-        releaseDoubtful(scans, pairs, map, impl_->pool);
+    const std::size_t released = releaseDoubtful(scans, pairs, map, impl_->pool);
     const std::size_t groups = map.groups.size();
-    map = joinGroups(
-        scans, pairs, std::move(map), options.min_confidence, impl_->pool);
-if (released == 0 && map.groups.size() == groups)
+    map = joinGroups(scans, pairs, std::move(map), options.min_confidence, impl_->pool);
+    if (released == 0 && map.groups.size() == groups)
       break;
   }
   timings.grouping = total.milliseconds();
   std::vector<SurfaceEdge> edges;
   for (const std::vector<std::size_t>& group : map.groups)
-    for (SurfaceEdge& edge : refineMap(scans, within(group, pairs), group, map.poses, impl_->pool))
+    for (SurfaceEdge& edge :
+         refineMap(scans, within(group, pairs), group, map.poses, impl_->pool))
       edges.push_back(std::move(edge));
   timings.refinement = total.milliseconds() - timings.grouping;
-  MultiviewResult result = reportOf(map, edges, pairs, scans);
+  MultiviewResult result =
+      reportOf(map, edges, pairs, confidencesOf(scans, pairs, map, impl_->pool), scans);
   timings.total = total.milliseconds();
   result.timings = timings;
   return result;
@@ -231,12 +228,25 @@ MultiviewRegistration::align(const std::vector<Scan>& scans,
 {
   const detail::Stopwatch watch;
   const ScanSource source = [&](std::size_t i) { return scans[i]; };
-  const std::vector<ScanRelation> relations =
-      relate(source, choosePairs(scans.size(), source, options), options);
-  const double spent = watch.milliseconds();
-  MultiviewResult result = place(scans.size(), source, relations, options);
-  result.timings.relations = spent;
-  result.timings.total += spent;
+  std::vector<ScanRelation> relations;
+  MultiviewResult result;
+  MultiviewTimings spent;
+  for (std::vector<ScanPair> pairs = choosePairs(scans.size(), source, options);;
+       pairs = choosePairs(source, relations, result, options)) {
+    if (pairs.empty() && !relations.empty())
+      break;
+    const detail::Stopwatch relating;
+    for (ScanRelation& relation : relate(source, pairs, options))
+      relations.push_back(std::move(relation));
+    spent.relations += relating.milliseconds();
+    result = place(scans.size(), source, relations, options);
+    spent.grouping += result.timings.grouping;
+    spent.refinement += result.timings.refinement;
+    if (pairs.empty())
+      break;
+  }
+  spent.total = watch.milliseconds();
+  result.timings = spent;
   return result;
 }
 

@@ -153,8 +153,8 @@ residualOf(const PoseConstraint& c,
            const Eigen::Isometry3d& target,
            const Eigen::Isometry3d& source)
 {
-  const Eigen::Isometry3d off =
-      target.inverse(Eigen::Isometry) * source * c.T_target_source.inverse(Eigen::Isometry);
+  const Eigen::Isometry3d off = target.inverse(Eigen::Isometry) * source *
+                                c.T_target_source.inverse(Eigen::Isometry);
   const Eigen::AngleAxisd turn(off.linear());
   Vector6 residual;
   residual.head<3>() = turn.angle() * turn.axis();

@@ -16,7 +16,8 @@ constexpr double LEAST_PROBABILITY = 1e-4;
 constexpr double MOST_PROBABILITY = 0.9995;
 
 /** \brief That a pose is right that is not the pair's best, if the best is wrong: a logistic
- * regression on what the pair knows of each of its poses, and by half too much. */
+ * regression on what the pair knows of each of its poses, and by half too much. The best,
+ * too, is at least as likely. */
 double
 probabilityOfRival(const Hypothesis& rival)
 {
@@ -36,6 +37,7 @@ probabilityOfRival(const Hypothesis& rival)
 PairOptions
 withRivals(PairOptions options)
 {
+  options.give_up_early = true;
   options.parameters.max_hypotheses =
       std::max(options.parameters.max_hypotheses, RIVALS);
   return options;
@@ -45,7 +47,12 @@ std::vector<RelativePose>
 posesOf(const Result& result)
 {
   std::vector<RelativePose> poses;
-  const double best = std::min(result.confidence, MOST_PROBABILITY);
+  if (result.hypotheses.empty())
+    return poses;
+  const double best = std::clamp(
+      result.confidence,
+      std::min(probabilityOfRival(result.hypotheses.front()), MOST_PROBABILITY),
+      MOST_PROBABILITY);
   double sum = 0;
   for (std::size_t i = 0; i < result.hypotheses.size() && i < RIVALS; ++i) {
     const Hypothesis& hypothesis = result.hypotheses[i];

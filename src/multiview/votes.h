@@ -5,13 +5,12 @@
 
 #include "multiview/map_scan.h"
 
+#include <pcl_flashreg/multiview_registration.h>
+
 #include <cstddef>
 #include <vector>
 
 namespace pcl_flashreg {
-
-/** \brief A pose of a scan's middle for each scan, in the frame of its group. */
-using MapPoses = std::vector<Eigen::Isometry3d>;
 
 /** \brief One pose that a pair speaks for. */
 struct Vote {
@@ -30,11 +29,19 @@ struct PairVotes {
   unsure() const;
 };
 
+/** \brief What relations say, by target and source, the target having the smaller number. Of a
+ * pair that was asked both ways each counts by half. */
+std::vector<PairVotes>
+votesOf(const std::vector<ScanRelation>& relations, const MapScans& scans);
+
 /** \brief A way in which two groups may lie to each other. */
 struct Placement {
   Eigen::Isometry3d T_fixed_moving = Eigen::Isometry3d::Identity();
   /** \brief Logarithm of how likely it is, by the votes; only differences count. */
-  double weight = 0;
+  double votes = 0;
+  /** \brief JointAgreement::harmony() on the surfaces; the most it can be, until the clouds
+   * were asked. */
+  double harmony = 0;
   /** \brief Pairs that speak for it. */
   std::size_t supporters = 0;
 };
@@ -42,7 +49,7 @@ struct Placement {
 struct Placements {
   /** \brief The likeliest first, each another one. */
   std::vector<Placement> best;
-  /** \brief The weight of there being none that any pair speaks for. */
+  /** \brief The votes for there being none that any pair speaks for. */
   double none = 0;
 };
 

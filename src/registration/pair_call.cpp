@@ -133,8 +133,10 @@ PairCall::estimate(const CorrespondenceView<Scalar>& correspondences)
   result_.correspondences = correspondences.size;
   begin(PairStep::Estimation);
   result_.parameters = options_.parametersFor(result_.resolution);
-  const JudgingClouds clouds{
-      judgeFrom(result_.source), judgeFrom(result_.target), result_.resolution};
+  const JudgingClouds clouds{judgeFrom(result_.source),
+                             judgeFrom(result_.target),
+                             result_.resolution,
+                             options_.give_up_early};
   const bool ask =
       options_.cloud_check && !result_.source.empty() && !result_.target.empty();
   result_.pose = workers_.search.run(

@@ -132,14 +132,19 @@ PoseSearch::addSecondBest(const Parameters& parameters,
 /** \brief Replaces the hypotheses by those that stand before the clouds, unless the best
  * of these has less than three inliers. */
 void
-PoseSearch::askClouds(const SurfacePair& clouds,
+PoseSearch::askClouds(const JudgingClouds& clouds,
                       const Parameters& parameters,
                       PoseEstimate& estimate,
                       CloudFindings& findings)
 {
   const float limit = parameters.inlier_distance;
-  findings = checkOnClouds(
-      clouds, problem_, estimate.candidates, estimate.hypotheses, limit, pool_);
+  findings = checkOnClouds(prepareClouds(clouds),
+                           problem_,
+                           estimate.candidates,
+                           estimate.hypotheses,
+                           limit,
+                           clouds.give_up_early,
+                           pool_);
   if (findings.evidence.inliers < 3) {
     findings = {};
     return;
@@ -262,7 +267,7 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
       addSecondBest(parameters, estimate, clock);
       std::vector<Pose> motions{estimate.hypotheses.front().pose};
       if (clouds)
-        askClouds(prepareClouds(*clouds), parameters, estimate, findings);
+        askClouds(*clouds, parameters, estimate, findings);
       if (findings.evidence.has_clouds)
         motions.push_back(estimate.hypotheses.front().pose);
       findings.evidence.mirrored = mirroredEvidence(

@@ -32,6 +32,8 @@ struct JudgingClouds {
   JudgingCloud source, target;
   /** \brief Distance of neighbouring points. */
   double spacing = 0;
+  /** \brief See PairOptions. */
+  bool give_up_early = false;
 };
 
 /** \brief From correspondences to the pose and the verdict: preparation, the backend's
@@ -76,7 +78,7 @@ private:
                 PoseEstimate& estimate,
                 StageClock& clock);
   void
-  askClouds(const SurfacePair& clouds,
+  askClouds(const JudgingClouds& clouds,
             const Parameters& parameters,
             PoseEstimate& estimate,
             CloudFindings& findings);
