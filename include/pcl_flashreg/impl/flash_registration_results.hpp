@@ -7,9 +7,9 @@
 
 #include <pcl_flashreg/flash_registration.h>
 #include <pcl_flashreg/impl/equal_rows.hpp>
+#include <pcl_flashreg/impl/move_cloud.hpp>
 
 #include <pcl/common/point_tests.h>
-#include <pcl/common/transforms.h>
 #include <pcl/console/print.h>
 
 #include <cstdint>
@@ -80,21 +80,8 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::applyResult(
     source_side_.reset();
     known_estimate_.reset();
   }
-  // The output holds a copy of the source by now. The pose is applied in double
-  // precision: coordinates may be large.
-  if constexpr (pcl::traits::has_normal<PointSource>::value)
-    pcl::transformPointCloudWithNormals(output, output, T_target_source);
-  else
-    pcl::transformPointCloud(output, output, T_target_source);
-  const RigidTransform& pose = result_.T_target_source;
-  const Eigen::Vector3d origin =
-      output.sensor_origin_.template head<3>().template cast<double>();
-  const Eigen::Quaterniond orientation =
-      output.sensor_orientation_.template cast<double>();
-  output.sensor_origin_.template head<3>() =
-      (pose.rotation * origin + pose.translation).template cast<float>();
-  output.sensor_orientation_ =
-      (Eigen::Quaterniond(pose.rotation) * orientation).template cast<float>();
+  // The output holds a copy of the source by now.
+  detail::moveCloud(output, result_.T_target_source);
 }
 
 template <typename PointSource, typename PointTarget, typename FeatureT>
