@@ -106,7 +106,7 @@ struct MultiviewOptions {
   /** \brief Of each pair. */
   PairOptions pair;
   /** \brief A scan stays in a group if its confidence is at least this; (0, 1). */
-  double min_confidence = 0.8;
+  double min_confidence = 0.9;
   /** \brief Each scan is tried with so many others at first, those that are most like it by their
    * descriptors; >= 1. */
   std::size_t alike = 12;
