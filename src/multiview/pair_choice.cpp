@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t NEIGHBOURS = 3;
 
 /** \brief Of more scans than can all be tried with each other: that often as many as
- * MultiviewOptions::alike are looked for. */
-constexpr std::size_t REPEATED = 4;
+ * MultiviewOptions::alike are looked for, for scans of a group and for those that are alone. */
+constexpr std::size_t REPEATED = 2, REPEATED_ALONE = 4;
 
 /** \brief The probability of a pair's best pose that is worth a second try. */
 constexpr double PROMISING = 0.05;
@@ -65,7 +65,8 @@ untiedPairs(const Likeness& likeness,
   const bool few = count <= options.all_pairs_up_to;
   for (std::size_t scan = 0; scan < count; ++scan) {
     std::size_t left = few ? count : options.alike;
-    if (!few && tries[scan] >= REPEATED * options.alike)
+    const bool alone = map.groups[map.scans[scan].group].size() == 1;
+    if (!few && tries[scan] >= (alone ? REPEATED_ALONE : REPEATED) * options.alike)
       continue;
     for (const std::size_t other : likeness.ranked(scan)) {
       const MultiviewRegistration::ScanPair pair = std::minmax(scan, other);
