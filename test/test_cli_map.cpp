@@ -50,7 +50,9 @@ TEST_F(CliMap, placesAllScansAndSaysSo)
   const ProgramRun run = makeMap("scans map.pcd");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out.find("all 8 scans are placed, in one map\n"), 0u) << run.out;
-  EXPECT_NE(run.out.find("\npairs       28 registered\nedges       "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\npairs       28 registered\nedges       "),
+            std::string::npos)
+      << run.out;
   EXPECT_NE(run.out.find("estimated"), std::string::npos) << run.out;
   EXPECT_EQ(run.out.find("not placed"), std::string::npos) << run.out;
   const io::Cloud cloud = io::readCloud(path("map.pcd"));
@@ -198,8 +200,8 @@ TEST_F(CliMap, theGraphIsG2os)
 TEST_F(CliMap, drawsAndWritesAPage)
 {
   writeScans(0, 3);
-  const ProgramRun run = makeMap("scans --page page.md --picture map.png --threads 2" +
-                                 std::string(LEAF));
+  const ProgramRun run =
+      makeMap("scans --page page.md --picture map.png --threads 2" + std::string(LEAF));
   if (run.err.find("--picture is not built into this program") != std::string::npos)
     GTEST_SKIP() << "built without Cairo";
   ASSERT_EQ(run.status, 0) << run.err;

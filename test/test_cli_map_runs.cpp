@@ -100,7 +100,8 @@ TEST_F(CliMapRuns, whatIsKnownIsNotComputedAgain)
   const ProgramRun run =
       makeMap("scans --poses p.csv --pairs pairs.csv --resume" + std::string(LEAF));
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_NE(run.out.find("15 registered, 15 of them by earlier runs\n"), std::string::npos)
+  EXPECT_NE(run.out.find("15 registered, 15 of them by earlier runs\n"),
+            std::string::npos)
       << run.out;
   EXPECT_NE(read("p.csv"), poses_);
 }
@@ -121,7 +122,8 @@ TEST_F(CliMapRuns, takeScansIn)
       "scans in)");
   const ProgramRun run =
       makeMap("scans --poses p.csv --pairs pairs.csv --add" + std::string(LEAF));
-  EXPECT_NE(run.out.find("15 registered, 6 of them by earlier runs\n"), std::string::npos)
+  EXPECT_NE(run.out.find("15 registered, 6 of them by earlier runs\n"),
+            std::string::npos)
       << run.out;
   EXPECT_EQ(read("p.csv"), poses_);
   EXPECT_EQ(read("pairs.csv"), pairs_);

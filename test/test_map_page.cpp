@@ -79,7 +79,8 @@ TEST_F(MapPage, summarizes)
 {
   expectPart("# Map of 8 scans\n");
   expectPart("placed: 6 of 8 scans, in 2 maps");
-  expectPart("28 registered, 9 with a pose; 5 used, 2 rejected (1 of them certain by "
+  expectPart("pairs: 28 registered\n");
+  expectPart("edges: 5 used, 2 rejected (1 of them certain by "
              "themselves), 2 between");
   expectPart("loops: 1 independent");
   expectPart("resolution: 0.05\n");

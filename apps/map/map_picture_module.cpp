@@ -3,6 +3,7 @@
 
 #include "../drawing/picture.h"
 #include "density.h"
+#include "groups.h"
 #include "map_picture.h"
 #include "map_view.h"
 #include "scan_colors.h"
@@ -200,9 +201,7 @@ drawScaleBar(Picture& picture, double pixels_per_unit, int width, double y)
 std::string
 captionOf(const MultiviewResult& result, std::size_t drawn)
 {
-  std::size_t groups = 0;
-  for (const auto& group : result.groups)
-    groups += group.size() > 1;
+  const std::size_t groups = numberOfMaps(result);
   std::string text = std::to_string(result.placed()) + " of " +
                      std::to_string(result.scans.size()) + " scans placed";
   if (groups > 1)

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "groups.h"
 #include "scan_files.h"
 
 #include <pcl_flashreg/multiview_registration.h>
@@ -48,13 +49,5 @@ struct MapRun {
 /** \brief Of the scans. */
 std::vector<std::string>
 namesOf(const MapRun& run);
-
-/** \brief Groups of more than one scan: they come first. */
-std::size_t
-numberOfMaps(const MultiviewResult& result);
-
-/** \brief Whether the scan belongs to a group with others. */
-bool
-isPlaced(const MultiviewResult& result, std::size_t scan);
 
 } // namespace pcl_flashreg::map

@@ -65,11 +65,10 @@ writeCloudOf(const Options& options,
   std::vector<MapInput> inputs;
   for (const std::size_t scan : run.result.groups[map])
     inputs.push_back({run.scans[scan].path, run.result.scans[scan].T_group_scan});
-  return {path,
-          writeMergedCloud(inputs,
-                           options.map_leaf.value_or(run.resolution),
-                           path,
-                           options.bin_fields)};
+  return {
+      path,
+      writeMergedCloud(
+          inputs, options.map_leaf.value_or(run.resolution), path, options.bin_fields)};
 }
 
 void

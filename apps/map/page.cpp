@@ -4,6 +4,7 @@
 #include "page.h"
 
 #include "../program/rounded.h"
+#include "groups.h"
 #include "page_table.h"
 
 #include <pcl_flashreg/impl/number_text.hpp>
@@ -41,15 +42,6 @@ rejectedAndCertain(const MultiviewResult& result)
       }));
 }
 
-std::size_t
-numberOfMaps(const MultiviewResult& result)
-{
-  return static_cast<std::size_t>(
-      std::count_if(result.groups.begin(), result.groups.end(), [](const auto& group) {
-        return group.size() > 1;
-      }));
-}
-
 /** \brief Used edges that no tree needs: each closes a loop. */
 std::size_t
 loopsOf(std::size_t edges, std::size_t scans, std::size_t groups)
@@ -82,9 +74,9 @@ formatSummary(const PageInput& input)
       "# Map of " + plural(result.scans.size(), "scan") +
       "\n\n- placed: " + std::to_string(result.placed()) + " of " +
       plural(result.scans.size(), "scan") + ", in " + plural(maps, "map") +
-      "\n- pairs: " + std::to_string(input.pairs) + " registered, " +
-      std::to_string(result.edges.size()) + " with a pose; " + std::to_string(used) +
-      " used, " + std::to_string(countOf(result, EdgeFate::Disagrees)) + " rejected (" +
+      "\n- pairs: " + std::to_string(input.pairs) +
+      " registered\n- edges: " + std::to_string(used) + " used, " +
+      std::to_string(countOf(result, EdgeFate::Disagrees)) + " rejected (" +
       std::to_string(rejectedAndCertain(result)) + " of them certain by themselves), " +
       std::to_string(countOf(result, EdgeFate::Apart)) +
       " between scans that are not in one map\n- loops: " +
@@ -213,7 +205,7 @@ formatWeakest(const PageInput& input)
   const MultiviewResult& result = input.result;
   std::vector<std::size_t> scans;
   for (std::size_t i = 0; i < result.scans.size(); ++i)
-    if (result.groups[result.scans[i].group].size() > 1)
+    if (isPlaced(result, i))
       scans.push_back(i);
   if (scans.empty())
     return "";

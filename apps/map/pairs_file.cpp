@@ -53,7 +53,8 @@ parsePairs(const std::string& bytes)
   batch::readRows(lines, relationColumns(), [&](const batch::Cells& cells) {
     pairs.relations.push_back(relationFromCells(cells));
     const ScanRelation& relation = pairs.relations.back();
-    if (relation.target >= relation.source || relation.source >= scans)
+    if (relation.target == relation.source ||
+        std::max(relation.target, relation.source) >= scans)
       throw io::InputError("is no pair of " + std::to_string(scans) + " scans");
   });
   return pairs;
@@ -146,14 +147,11 @@ knownRelations(const std::string& path, const Config& now, bool growing)
   std::vector<std::size_t> numbers;
   for (const Config& scan : file.config["scans"])
     numbers.push_back(*find(now["scans"], CHECKSUM, scan[CHECKSUM]));
-  std::vector<ScanRelation> known;
   for (ScanRelation& relation : file.relations) {
     relation.target = numbers[relation.target];
     relation.source = numbers[relation.source];
-    if (relation.target < relation.source)
-      known.push_back(std::move(relation));
   }
-  return known;
+  return std::move(file.relations);
 }
 
 PairsAppender::PairsAppender(const std::string& path)

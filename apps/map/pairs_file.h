@@ -41,8 +41,7 @@ void
 writePairs(const std::string& path, const PairsFile& pairs);
 
 /** \brief What a file knows of our scans, with our numbers. Scans are known by their
- * contents; a pair that has changed places, by new names, is not known: which scan is the
- * target changes its last bits.
+ * contents, whatever their names.
  * \param[in] now our configuration
  * \param[in] growing whether there may be scans that the file does not know
  * \throws io::InputError if the file was made with other settings, with the difference

@@ -179,7 +179,7 @@ private:
       throw io::InputError("only " + std::to_string(scan.size()) +
                            " points are left at a resolution of " +
                            detail::toText(set_.resolution));
-    store_.add(key, scan);
+    store_.add(key, scan, earlier.has_value());
     set_.files.push_back(file);
     set_.checksums.push_back(checksum);
     ++viewpoints_[static_cast<int>(scan.viewpointSource())];

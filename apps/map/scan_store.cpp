@@ -48,12 +48,12 @@ ScanStore::earlier(const std::string& key) const
 }
 
 void
-ScanStore::add(const std::string& key, const Scan& scan)
+ScanStore::add(const std::string& key, const Scan& scan, bool is_kept)
 {
   if (folder_.empty())
     scans_.push_back(scan);
   else {
-    if (!earlier(key))
+    if (!is_kept)
       scan.save(pathOf(key));
     paths_.push_back(pathOf(key));
   }

@@ -29,9 +29,10 @@ public:
 
   /** \brief The scan with the next number.
    * \param[in] key names it in the folder, and changes with all that it is made from
+   * \param[in] is_kept whether it is what earlier() gave
    * \throws ScanFileError if it can't be written */
   void
-  add(const std::string& key, const Scan& scan);
+  add(const std::string& key, const Scan& scan, bool is_kept);
 
   /** \brief Any number of threads may call it at a time.
    * \throws ScanFileError if it can't be read again */

@@ -193,7 +193,10 @@ MultiviewRegistration::place(std::size_t count,
   const std::vector<bool> blind = falseViewpoints(count, relations);
   impl_->pool.forEach(count, [&](std::size_t i, std::size_t) {
     const Scan scan = source(i);
-    surfaces[i] = std::make_shared<MapScan>(blind[i] ? scan.withoutViewpoint() : scan);
+    surfaces[i] = std::make_shared<MapScan>(blind[i] || scan.viewpointSource() ==
+                                                            ViewpointSource::Points
+                                                ? scan.withoutViewpoint()
+                                                : scan);
   });
   const MapScans scans = [&](std::size_t i) { return surfaces[i]; };
   const std::vector<PairVotes> pairs = votesOf(relations, scans);
