@@ -119,6 +119,52 @@ TEST_F(Evaluate, registersAThreeDMatchTree)
   EXPECT_EQ(evaluate("--merge r.csv --json -").out, run.out);
 }
 
+TEST_F(Evaluate, scenesAreRegisteredAsAWhole)
+{
+  writeFragments("kitchen");
+  write("benchmarks/near/kitchen/gt.log", "0 1 2\n" + bundledPose());
+  write("benchmarks/low/kitchen/gt.log", "0 1 2\n" + bundledPose());
+  const std::string arguments = ". --leaf 0.1 --method flashreg,flashreg_map ";
+  const ProgramRun run = evaluate(arguments + "--json - --csv r.csv");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  ASSERT_EQ(json["groups"].size(), 3u);
+  for (const auto& group : json["groups"]) {
+    const auto& map = group["methods"][1];
+    EXPECT_EQ(map["method"], "flashreg_map");
+    EXPECT_EQ(map["recall"], 1) << map;
+    EXPECT_EQ(map["verdict"]["precision"], 1) << map;
+    EXPECT_LT(map["translation_error"]["mean"], 0.15) << map;
+    EXPECT_GT(map["times_ms"]["estimation"]["median"], 0);
+  }
+  ASSERT_EQ(json["maps"].size(), 1u) << "both data sets have the same clouds";
+  const auto& map = json["maps"][0];
+  EXPECT_EQ(map["name"], "kitchen");
+  EXPECT_EQ(map["scans"], 2);
+  EXPECT_EQ(map["placed"], 2);
+  EXPECT_EQ(map["groups"], 1);
+  EXPECT_GE(map["tried"], 1);
+  EXPECT_EQ(map["used_edges"], 1);
+  EXPECT_EQ(map["wrong_edges"], 0);
+  EXPECT_EQ(map["unknown_edges"], 0);
+  EXPECT_GT(map["seconds"], 0);
+  EXPECT_NE(evaluate(arguments).out.find("  kitchen "), std::string::npos);
+  expectFailure(arguments + "--shard 1/2", 2, "flashreg_map takes whole scenes");
+}
+
+TEST_F(Evaluate, wrongMapsAreCounted)
+{
+  writeFragments("kitchen");
+  // Nobody's pose: the map is right, and the list isn't.
+  write("kitchen/gt.log", "0 1 2\n1 0 0 5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  const ProgramRun run = evaluate(". --leaf 0.1 --method flashreg_map --json -");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["groups"][0]["methods"][0]["recall"], 0);
+  EXPECT_EQ(json["groups"][0]["methods"][0]["verdict"]["trusted"], 1);
+  EXPECT_EQ(json["maps"][0]["wrong_edges"], 1);
+}
+
 TEST_F(Evaluate, exactIsTheDenseReference)
 {
   writeMacFolder("scene", 6, 700, 2);

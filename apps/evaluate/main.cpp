@@ -9,6 +9,7 @@
 #include "../io/error.h"
 #include "../io/file.h"
 #include "../program/program.h"
+#include "methods/registry.h"
 #include "options.h"
 #include "results/report.h"
 #include "run/evaluation.h"
@@ -28,11 +29,11 @@ report(const Options& options, const Results& results)
 {
   const std::vector<GroupSummary> groups = summarize(results);
   if (options.json == "-")
-    std::cout << formatJson(results.config, groups) << std::flush;
+    std::cout << formatJson(results.config, groups, results.maps) << std::flush;
   else {
-    std::cout << formatTable(groups) << std::flush;
+    std::cout << formatTable(groups) << formatMaps(results.maps) << std::flush;
     if (!options.json.empty())
-      io::writeFile(options.json, formatJson(results.config, groups));
+      io::writeFile(options.json, formatJson(results.config, groups, results.maps));
   }
 }
 
@@ -55,9 +56,10 @@ Results
 runInMemory(const Options& options, const Job& job)
 {
   Results results{job.config, {}};
-  evaluatePairs(options, job, job.shard, options.quiet, [&](const auto& records) {
-    results.records.insert(results.records.end(), records.begin(), records.end());
-  });
+  results.maps =
+      evaluatePairs(options, job, job.shard, options.quiet, [&](const auto& records) {
+        results.records.insert(results.records.end(), records.begin(), records.end());
+      });
   return results;
 }
 
@@ -80,10 +82,11 @@ runWithFiles(const Options& options, const Job& job, const batch::Ranks& ranks)
     path = batch::partPath(options.csv, RANK, ranks.rank());
     writeResults(path, {job.config, {}});
   }
+  std::vector<MapSummary> maps;
   {
     // Closed before the others are told: only then another machine is sure to see it all.
     ResultsAppender file(path);
-    evaluatePairs(
+    maps = evaluatePairs(
         options, job, pairs, options.quiet || !first, [&](const auto& records) {
           file.append(records);
         });
@@ -91,7 +94,8 @@ runWithFiles(const Options& options, const Job& job, const batch::Ranks& ranks)
   ranks.wait();
   if (!first)
     return {};
-  const Results results = readWithParts(options.csv, job.config);
+  Results results = readWithParts(options.csv, job.config);
+  results.maps = std::move(maps);
   const std::size_t missing = remaining(job, results).size();
   if (missing > 0)
     throw io::InputError(options.csv + ": rows of " + std::to_string(missing) +
@@ -102,12 +106,25 @@ runWithFiles(const Options& options, const Job& job, const batch::Ranks& ranks)
   return results;
 }
 
+/** \brief Each process would register all scenes. */
+void
+checkScenes(const Options& options, const batch::Ranks& ranks)
+{
+  if (ranks.size() == 1 && options.shard.count == 1)
+    return;
+  for (const std::string& name : options.methods)
+    if (findMethod(name)->of_scenes)
+      throw UsageError("--method: " + name +
+                       " takes whole scenes, which ranks and shards can't share");
+}
+
 void
 evaluate(const Options& options, const batch::Ranks& ranks)
 {
   if (ranks.size() > 1 && options.csv.empty())
     throw UsageError("several ranks need --csv FILE in a folder that all of them see");
   const Job job = makeJob(options);
+  checkScenes(options, ranks);
   const Results results = options.csv.empty() ? runInMemory(options, job)
                                               : runWithFiles(options, job, ranks);
   if (ranks.rank() == 0)

@@ -58,6 +58,9 @@ struct MethodEntry {
   /** \throws BackendError if this machine cannot run it
    * \throws std::invalid_argument if it cannot work with the settings */
   std::function<Method(const MethodSettings&)> make;
+  /** \brief Answers from the map of a scene's clouds (SceneMaps), not pair by pair: `make` is
+   * empty. */
+  bool of_scenes = false;
 };
 
 } // namespace pcl_flashreg::evaluate

@@ -66,16 +66,34 @@ toJson(const GroupSummary& group)
           {"methods", methods}};
 }
 
+Json
+toJson(const MapSummary& map)
+{
+  return {{"name", map.name},
+          {"scans", map.scans},
+          {"placed", map.placed},
+          {"groups", map.groups},
+          {"tried", map.tried},
+          {"used_edges", map.used_edges},
+          {"wrong_edges", map.wrong_edges},
+          {"unknown_edges", map.unknown_edges},
+          {"seconds", map.seconds}};
+}
+
 } // namespace
 
 std::string
-formatJson(const Config& config, const std::vector<GroupSummary>& groups)
+formatJson(const Config& config,
+           const std::vector<GroupSummary>& groups,
+           const std::vector<MapSummary>& maps)
 {
   Json json;
   json["config"] = config;
   json["groups"] = Json::array();
   for (const GroupSummary& group : groups)
     json["groups"].push_back(toJson(group));
+  for (const MapSummary& map : maps)
+    json["maps"].push_back(toJson(map));
   return program::textOf(json);
 }
 

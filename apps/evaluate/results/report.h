@@ -13,8 +13,10 @@ namespace pcl_flashreg::evaluate {
 std::string
 formatTable(const std::vector<GroupSummary>& groups);
 
-/** \brief The same, and the configuration, for programs. */
+/** \brief The same, with the configuration and the maps, for programs. */
 std::string
-formatJson(const Config& config, const std::vector<GroupSummary>& groups);
+formatJson(const Config& config,
+           const std::vector<GroupSummary>& groups,
+           const std::vector<MapSummary>& maps = {});
 
 } // namespace pcl_flashreg::evaluate

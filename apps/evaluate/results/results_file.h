@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../../batch/config.h"
+#include "map_summary.h"
 #include "record.h"
 
 #include <fstream>
@@ -25,6 +26,8 @@ struct Results {
   Config config;
   /** \brief By pair, and by method in the order of the configuration. */
   std::vector<Record> records;
+  /** \brief Those that this run made; they are in no file. */
+  std::vector<MapSummary> maps = {};
 };
 
 /** \brief The file of times that belongs to a file of results. */

@@ -92,4 +92,27 @@ formatTable(const std::vector<GroupSummary>& groups)
   return text;
 }
 
+std::string
+formatMaps(const std::vector<MapSummary>& maps)
+{
+  if (maps.empty())
+    return "";
+  std::string text =
+      "maps                            scans  placed  groups   tried    used "
+      "  wrong  unknown  seconds\n";
+  for (const MapSummary& map : maps)
+    text += "  " + map.name +
+            std::string(map.name.size() < 28 ? 28 - map.name.size() : 1, ' ') +
+            print("%7zu %7zu %7zu %7zu %7zu %7zu  %7zu  %7.1f\n",
+                  map.scans,
+                  map.placed,
+                  map.groups,
+                  map.tried,
+                  map.used_edges,
+                  map.wrong_edges,
+                  map.unknown_edges,
+                  map.seconds);
+  return text;
+}
+
 } // namespace pcl_flashreg::evaluate

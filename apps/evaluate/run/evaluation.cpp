@@ -10,6 +10,7 @@
 #include "../methods/registry.h"
 #include "../results/judge.h"
 #include "../../batch/progress.h"
+#include "scene_maps.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
@@ -24,6 +25,7 @@ constexpr std::size_t LEAST_CORRESPONDENCES = 3;
 
 struct NamedMethod {
   std::string name;
+  /** \brief Empty for a method of whole scenes. */
   Method run;
 };
 
@@ -34,7 +36,9 @@ makeMethods(const Options& options, const Job& job)
   std::vector<NamedMethod> made;
   for (const std::string& name : options.methods)
     try {
-      made.push_back({name, findMethod(name)->make(settings)});
+      made.push_back(
+          {name,
+           findMethod(name)->of_scenes ? Method() : findMethod(name)->make(settings)});
     }
     catch (const std::invalid_argument& error) {
       throw UsageError("--method: " + name + ": " + error.what());
@@ -106,6 +110,7 @@ evaluatePair(std::size_t number,
              const RigidTransform& truth,
              const Prepared& prepared,
              const std::vector<NamedMethod>& methods,
+             const Method& of_scenes,
              const Job& job)
 {
   Record record;
@@ -122,8 +127,11 @@ evaluatePair(std::size_t number,
   for (const NamedMethod& method : methods) {
     record.method = method.name;
     record.times = prepared.times;
-    const Answer answer =
-        record.correspondences < LEAST_CORRESPONDENCES ? Answer() : method.run(problem);
+    Answer answer;
+    if (!method.run)
+      answer = of_scenes(problem);
+    else if (record.correspondences >= LEAST_CORRESPONDENCES)
+      answer = method.run(problem);
     judge(answer, truth, job.data.criterion, record);
     records.push_back(record);
   }
@@ -132,7 +140,7 @@ evaluatePair(std::size_t number,
 
 } // namespace
 
-void
+std::vector<MapSummary>
 evaluatePairs(const Options& options,
               const Job& job,
               const std::vector<std::size_t>& pairs,
@@ -148,6 +156,7 @@ evaluatePairs(const Options& options,
                      job.data.bin_fields);
   PairRegistration registration(BackendKind::Cpu, options.threads);
   const TruthStore truths(job.data.root, options.cache, job.data.bin_fields);
+  SceneMaps maps(options, job);
   const auto pairAt = [&](std::size_t position) -> const Pair& {
     return job.data.pairs[job.pairs[position]];
   };
@@ -157,10 +166,13 @@ evaluatePairs(const Options& options,
   for (const std::size_t position : pairs) {
     const Pair& pair = pairAt(position);
     const Prepared prepared = prepare(pair, options, job, store, registration);
-    done(evaluatePair(position, pair, truths.get(pair), prepared, methods, job));
+    const Method of_scenes = [&](const Problem&) { return maps.answer(pair, store); };
+    done(evaluatePair(
+        position, pair, truths.get(pair), prepared, methods, of_scenes, job));
     store.release(pair);
     progress.step();
   }
+  return maps.summaries();
 }
 
 } // namespace pcl_flashreg::evaluate

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../options.h"
+#include "../results/map_summary.h"
 #include "../results/record.h"
 #include "job.h"
 
@@ -13,12 +14,13 @@
 namespace pcl_flashreg::evaluate {
 
 /** \brief Registers pairs with every method.
+ * \return the maps that were made, for a method of whole scenes
  * \param[in] pairs positions in Job::pairs
  * \param[in] quiet no progress
  * \param[in] done gets the records of each pair, one a method
  * \throws io::InputError, BackendError, std::bad_alloc
  */
-void
+std::vector<MapSummary>
 evaluatePairs(const Options& options,
               const Job& job,
               const std::vector<std::size_t>& pairs,
