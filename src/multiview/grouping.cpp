@@ -17,8 +17,6 @@ namespace {
 
 /** \brief Logarithm of odds that need not wait for what else may turn out. */
 constexpr double CERTAIN = 4;
-/** \brief A scan leaves its group with less confidence. */
-constexpr double LEAST_TO_STAY = 0.5;
 /** \brief Poses are optimized when a group has grown by this share. */
 constexpr double GROWN = 0.2;
 
@@ -189,38 +187,68 @@ private:
   std::map<std::size_t, std::vector<const PairVotes*>> within_;
 };
 
-/** \brief How sure it is that the scan would be put where it is, if all others of its group were
- * there already: the logarithm of the odds; nothing, if it would be put elsewhere. */
-std::optional<double>
-oddsToStay(std::size_t scan,
-           const std::vector<std::size_t>& group,
-           const std::vector<PairVotes>& pairs,
+/** \brief Where a scan would be put among others that are all in one frame, and how sure that is:
+ * the logarithm of the odds. */
+struct Placing {
+  Eigen::Isometry3d place;
+  double odds;
+};
+
+std::optional<Placing>
+placeAmong(const std::vector<std::size_t>& others,
+           std::size_t scan,
+           const std::vector<const PairVotes*>& pairs_of_scan,
            const MapScans& scans,
            const MapPoses& poses)
 {
-  std::vector<std::size_t> others = group;
-  others.erase(std::find(others.begin(), others.end(), scan));
   Bond bond;
-  for (const PairVotes& pair : pairs) {
-    if (pair.target != scan && pair.source != scan)
-      continue;
-    const std::size_t other = pair.target == scan ? pair.source : pair.target;
+  for (const PairVotes* pair : pairs_of_scan) {
+    const std::size_t other = pair->target == scan ? pair->source : pair->target;
     if (std::binary_search(others.begin(), others.end(), other))
-      bond.pairs.push_back(&pair);
+      bond.pairs.push_back(pair);
   }
   if (bond.pairs.empty())
     return std::nullopt;
   const std::vector<std::size_t> itself{scan};
   const BondEnds ends{others, itself};
   count(bond, ends, scans, poses);
-  if (!bond.judged) {
+  // What can't become certain need not be judged.
+  if (!bond.judged && bond.prospect > 0) {
     for (Placement& placement : bond.placements.best)
       judge(placement, ends, scans, poses);
     conclude(bond, ends, scans, poses);
   }
-  const bool stays = samePlace(
-      bond.best().T_fixed_moving * poses[scan], poses[scan], scans(scan)->spacing);
-  return stays ? std::optional(bond.prospect) : std::nullopt;
+  return Placing{bond.best().T_fixed_moving * poses[scan], bond.prospect};
+}
+
+/** \brief How sure it is that a scan is in the right place of the right group: that all others of
+ * the group would put it there, and no other group of several would put it anywhere. */
+double
+confidenceOf(std::size_t scan,
+             const std::vector<std::vector<std::size_t>>& groups,
+             const std::vector<const PairVotes*>& pairs_of_scan,
+             const MapScans& scans,
+             const MapPoses& poses)
+{
+  double here = 0, elsewhere = 0, nowhere = 1;
+  for (const std::vector<std::size_t>& group : groups) {
+    const bool own = std::binary_search(group.begin(), group.end(), scan);
+    std::vector<std::size_t> others = group;
+    if (own)
+      others.erase(std::find(others.begin(), others.end(), scan));
+    if (others.empty() || (!own && others.size() < 2))
+      continue;
+    const auto placing = placeAmong(others, scan, pairs_of_scan, scans, poses);
+    if (!placing)
+      continue;
+    const double probability = 1 / (1 + std::exp(-placing->odds));
+    const bool stays =
+        own && samePlace(placing->place, poses[scan], scans(scan)->spacing);
+    here = here * (1 - probability) + (stays ? nowhere * probability : 0);
+    elsewhere = elsewhere * (1 - probability) + (stays ? 0 : nowhere * probability);
+    nowhere *= 1 - probability;
+  }
+  return here / (here + elsewhere + nowhere);
 }
 
 /** \brief Parts of a group that pairs tie together whose most probable pose is the map's. */
@@ -274,16 +302,20 @@ confidencesOf(const MapScans& scans,
               const Grouping& map,
               ThreadPool& pool)
 {
-  std::vector<const std::vector<std::size_t>*> group_of(map.poses.size());
+  std::vector<std::vector<const PairVotes*>> pairs_of(map.poses.size());
+  for (const PairVotes& pair : pairs) {
+    pairs_of[pair.target].push_back(&pair);
+    pairs_of[pair.source].push_back(&pair);
+  }
+  std::vector<char> alone(map.poses.size());
   for (const std::vector<std::size_t>& group : map.groups)
-    for (const std::size_t scan : group)
-      group_of[scan] = &group;
+    if (group.size() == 1)
+      alone[group.front()] = 1;
   std::vector<double> confidences(map.poses.size());
   pool.forEach(confidences.size(), [&](std::size_t scan, std::size_t) {
-    if (group_of[scan]->size() < 2)
-      return;
-    const auto odds = oddsToStay(scan, *group_of[scan], pairs, scans, map.poses);
-    confidences[scan] = odds ? 1 / (1 + std::exp(-*odds)) : 0;
+    if (alone[scan] == 0)
+      confidences[scan] =
+          confidenceOf(scan, map.groups, pairs_of[scan], scans, map.poses);
   });
   return confidences;
 }
@@ -291,6 +323,7 @@ confidencesOf(const MapScans& scans,
 std::size_t
 releaseDoubtful(const MapScans& scans,
                 const std::vector<PairVotes>& pairs,
+                double least_confidence,
                 Grouping& map,
                 ThreadPool& pool)
 {
@@ -300,7 +333,7 @@ releaseDoubtful(const MapScans& scans,
   for (const std::vector<std::size_t>& group : map.groups) {
     std::vector<std::size_t> kept;
     for (const std::size_t scan : group)
-      if (group.size() == 1 || confidences[scan] >= LEAST_TO_STAY)
+      if (group.size() == 1 || confidences[scan] >= least_confidence)
         kept.push_back(scan);
       else {
         groups.push_back({scan});

@@ -28,20 +28,22 @@ joinGroups(const MapScans& scans,
            double min_confidence,
            ThreadPool& pool);
 
-/** \brief Of each scan, how sure it is that it would be put where it is, if all others of its
- * group were there already; 0 of one that is alone. */
+/** \brief Of each scan, how sure it is that all others of its group would put it where it is, and
+ * no other group would put it anywhere; 0 of one that is alone. */
 std::vector<double>
 confidencesOf(const MapScans& scans,
               const std::vector<PairVotes>& pairs,
               const Grouping& map,
               ThreadPool& pool);
 
-/** \brief Takes scans out of their groups that would not be put where they are, if all others
- * were there already; what only they tied together falls apart.
+/** \brief Takes scans out of their groups that are not sure of their places any more; what only
+ * they tied together falls apart.
+ * \param[in] least_confidence of a scan that stays
  * \return how many */
 std::size_t
 releaseDoubtful(const MapScans& scans,
                 const std::vector<PairVotes>& pairs,
+                double least_confidence,
                 Grouping& map,
                 ThreadPool& pool);
 

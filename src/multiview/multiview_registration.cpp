@@ -92,8 +92,10 @@ within(const std::vector<std::size_t>& group, const std::vector<PairVotes>& pair
   return result;
 }
 
-/** \brief Times that scans are taken out which the finished map does not confirm. */
+/** \brief Times that scans are taken out which the finished map does not confirm, and with what
+ * confidence they leave to be placed anew. */
 constexpr int RECONSIDERED = 3;
+constexpr double LEAST_TO_STAY = 0.5;
 
 } // namespace
 
@@ -205,12 +207,14 @@ MultiviewRegistration::place(std::size_t count,
   for (int round = 0; round < RECONSIDERED; ++round) {
     for (const std::vector<std::size_t>& group : map.groups)
       refineMap(scans, within(group, pairs), group, map.poses, impl_->pool);
-    const std::size_t released = releaseDoubtful(scans, pairs, map, impl_->pool);
+    const std::size_t released =
+        releaseDoubtful(scans, pairs, LEAST_TO_STAY, map, impl_->pool);
     const std::size_t groups = map.groups.size();
     map = joinGroups(scans, pairs, std::move(map), options.min_confidence, impl_->pool);
     if (released == 0 && map.groups.size() == groups)
       break;
   }
+  releaseDoubtful(scans, pairs, options.min_confidence, map, impl_->pool);
   timings.grouping = total.milliseconds();
   std::vector<SurfaceEdge> edges;
   for (const std::vector<std::size_t>& group : map.groups)
