@@ -62,7 +62,7 @@ addInputs(CLI::App& app, Options& options, Words& words)
                  words.paths,
                  wrapped("Folders of scans, or scans; then the merged cloud to write "
                          "(.pcd, .ply)"))
-      ->type_name("SCANS... MAP");
+      ->type_name("");
   app.add_option(
          "--list",
          options.list,
@@ -185,16 +185,20 @@ addLongRuns(CLI::App& app, Options& options, Words& words)
                  "the first output, as map.pairs.csv)"))
       ->type_name("FILE")
       ->group(group);
-  app.add_flag("--resume",
-               options.resume,
-               wrapped("Take pairs that are in this file from there"))
+  app.add_flag(
+         "--resume",
+         options.resume,
+         wrapped("Go on with a run that was killed: take the pairs that this file "
+                 "has from there"))
       ->group(group);
   app.add_flag(
          "--add", options.add, wrapped("The same, where scans have been added since"))
       ->group(group);
-  app.add_option("--shard",
-                 words.shard,
-                 wrapped("Only the i-th of n parts of the pairs, and no map"))
+  app.add_option(
+         "--shard",
+         words.shard,
+         wrapped("Only the i-th of n parts of the pairs that are tried first, and no "
+                 "map: --resume makes it, once all parts are done"))
       ->type_name("i/n")
       ->group(group);
 }

@@ -206,12 +206,15 @@ private:
                       none = viewpoints_[static_cast<int>(ViewpointSource::Unknown)];
     if (!options_.viewpoint_known || moved + none == 0)
       return;
-    messages_.note("of " + std::to_string(set_.files.size()) + " scans " +
-                   std::to_string(moved + none) +
-                   " were not seen from the viewpoint that they state: for " +
-                   std::to_string(moved) +
-                   " their points tell another one, which is used, for " +
-                   std::to_string(none) + " none is");
+    std::string text =
+        std::to_string(moved + none) + " of " + std::to_string(set_.files.size()) +
+        " scans: the points were not seen from the viewpoint in the file";
+    if (moved > 0)
+      text += "; of " + std::to_string(moved) +
+              " they say from where instead, by how they lie: that is used";
+    if (none > 0)
+      text += "; of " + std::to_string(none) + " from no one place: none is used";
+    messages_.note(text);
   }
 
   const Options& options_;
