@@ -105,7 +105,9 @@ struct MultiviewResult {
 struct MultiviewOptions {
   /** \brief Of each pair. */
   PairOptions pair;
-  /** \brief A scan stays in a group if its confidence is at least this; (0, 1). */
+  /** \brief Groups are joined if it is at least as certain as this how they lie to each other;
+   * (0, 1). A scan of the finished map remains in it if it is in no more than twice that
+   * doubt. */
   double min_confidence = 0.9;
   /** \brief Each scan is tried with so many others at first, those that are most like it by their
    * descriptors; >= 1. */

@@ -214,7 +214,9 @@ MultiviewRegistration::place(std::size_t count,
     if (released == 0 && map.groups.size() == groups)
       break;
   }
-  releaseDoubtful(scans, pairs, options.min_confidence, map, impl_->pool);
+  // Who is in may be in twice the doubt of who comes in.
+  const double least_to_remain = 1 - 2 * (1 - options.min_confidence);
+  releaseDoubtful(scans, pairs, least_to_remain, map, impl_->pool);
   timings.grouping = total.milliseconds();
   std::vector<SurfaceEdge> edges;
   for (const std::vector<std::size_t>& group : map.groups)
