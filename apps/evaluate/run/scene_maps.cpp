@@ -3,6 +3,7 @@
 
 #include "scene_maps.h"
 
+#include "../../map/groups.h"
 #include "../results/judge.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
@@ -110,10 +111,7 @@ SceneMaps::mapOf(std::size_t number, FeatureStore& store)
   map->result = registration_.align(scans, options);
   summary.seconds = stopwatch.milliseconds() / 1000;
   summary.placed = map->result.placed();
-  summary.groups = static_cast<std::size_t>(std::count_if(
-      map->result.groups.begin(), map->result.groups.end(), [](const auto& group) {
-        return group.size() > 1;
-      }));
+  summary.groups = map::numberOfMaps(map->result);
   judgeEdges(set, *map);
   return *map;
 }
