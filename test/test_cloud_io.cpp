@@ -9,6 +9,7 @@
 #include "io/ply.h"
 #include "io/text.h"
 #include "support/foreign_locale.h"
+#include "support/temporary_folder.h"
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
@@ -23,15 +24,12 @@ namespace fs = std::filesystem;
 namespace pcl_flashreg::io {
 namespace {
 
-class PclFiles : public ::testing::Test {
+class PclFiles : public FolderTest {
 protected:
   void
   SetUp() override
   {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              (std::string("pcl_flashreg_cloud_io_") + test->name());
-    fs::create_directories(folder_);
+    FolderTest::SetUp();
     made::Random random(3);
     for (int i = 0; i < 500; ++i) {
       pcl::PointXYZRGBNormal p;
@@ -46,18 +44,6 @@ protected:
   }
 
   void
-  TearDown() override
-  {
-    fs::remove_all(folder_);
-  }
-
-  std::string
-  path(const std::string& name) const
-  {
-    return (folder_ / name).string();
-  }
-
-  void
   expectSamePoints(const Cloud& cloud) const
   {
     ASSERT_EQ(cloud.size(), points_.size());
@@ -68,7 +54,6 @@ protected:
     }
   }
 
-  fs::path folder_;
   pcl::PointCloud<pcl::PointXYZRGBNormal> points_;
 };
 

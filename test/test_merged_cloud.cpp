@@ -5,14 +5,12 @@
 #include "io/cloud_io.h"
 #include "io/file.h"
 #include "map/merged_cloud.h"
+#include "support/temporary_folder.h"
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
-
-namespace fs = std::filesystem;
 
 namespace pcl_flashreg::map {
 namespace {
@@ -58,29 +56,8 @@ moved(double x, double y, double z)
   return pose;
 }
 
-class MergedCloud : public ::testing::Test {
+class MergedCloud : public FolderTest {
 protected:
-  void
-  SetUp() override
-  {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              (std::string("pcl_flashreg_merged_cloud_") + test->name());
-    fs::create_directories(folder_);
-  }
-
-  void
-  TearDown() override
-  {
-    fs::remove_all(folder_);
-  }
-
-  std::string
-  path(const std::string& name) const
-  {
-    return (folder_ / name).string();
-  }
-
   void
   addScan(const Cloud& cloud, const RigidTransform& pose = {})
   {
@@ -97,7 +74,6 @@ protected:
     return cloud;
   }
 
-  fs::path folder_;
   std::vector<MapInput> scans_;
 };
 

@@ -5,10 +5,10 @@
 
 // For tests that run a built program as a user does, on files in a folder of their own.
 
-#include <gtest/gtest.h>
+#include "support/temporary_folder.h"
+
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -31,32 +31,9 @@ struct ProgramRun {
   }
 };
 
-/** \brief A folder of its own for every test. */
-class ProgramTest : public testing::Test {
+/** \brief Runs programs in a folder of its own. */
+class ProgramTest : public FolderTest {
 protected:
-  void
-  SetUp() override
-  {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("pcl_flashreg_" + std::string(test->test_suite_name()) + "_" +
-               test->name() + "_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-
-  void
-  TearDown() override
-  {
-    std::filesystem::remove_all(folder_);
-  }
-
-  /** \brief Of a file in the folder; without a name, the folder's own. */
-  std::string
-  path(const std::string& name = "") const
-  {
-    return (name.empty() ? folder_ : folder_ / name).string();
-  }
-
   void
   write(const std::string& name, const std::string& text) const
   {
@@ -89,8 +66,6 @@ protected:
             read(".out"),
             read(".err")};
   }
-
-  std::filesystem::path folder_;
 };
 
 } // namespace pcl_flashreg
