@@ -4,6 +4,7 @@
 // Laws of the alignments, and Eigen's SVD as their oracle.
 
 #include "math/distinctness.h"
+#include "math/isometry.h"
 #include "math/triplet_alignment.h"
 #include "math/weighted_alignment.h"
 #include "support/made_correspondences.h"
@@ -22,16 +23,6 @@ Vec3
 toVec3(const Eigen::Vector3d& p)
 {
   return {p.x(), p.y(), p.z()};
-}
-
-Eigen::Isometry3d
-toIsometry(const Pose& T)
-{
-  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
-  isometry.linear() =
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(T.r);
-  isometry.translation() = Eigen::Map<const Eigen::Vector3d>(T.t);
-  return isometry;
 }
 
 /** \brief Kabsch by Eigen's SVD. */

@@ -7,6 +7,7 @@
 
 #include "judgement/cpu/agreement.h"
 #include "judgement/cpu/plane_alignment.h"
+#include "math/isometry.h"
 #include "judgement/cpu/principal_motions.h"
 #include "judgement/confidence.h"
 #include "judgement/walk.h"
@@ -94,15 +95,6 @@ surfaceOf(const CloudView<double>& view)
   return surface;
 }
 
-Pose
-poseOf(const Eigen::Isometry3d& T)
-{
-  Pose pose;
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.r) = T.linear();
-  Eigen::Map<Eigen::Vector3d>(pose.t) = T.translation();
-  return pose;
-}
-
 Eigen::Isometry3d
 motion(double degrees, const Eigen::Vector3d& shift)
 {
@@ -181,7 +173,7 @@ TEST(CloudAgreement, TellsAMatchFromAContradiction)
   const Surface source = surfaceOf(corner.view()), target = surfaceOf(other.view());
   const SurfacePair clouds{source, target, SPACING};
   const Look look(clouds, 1000, 1.5f, 3);
-  const CloudAgreement same = look(poseOf(Eigen::Isometry3d::Identity()));
+  const CloudAgreement same = look(toPose(Eigen::Isometry3d::Identity()));
   EXPECT_GT(same.matched, 0.9);
   EXPECT_EQ(same.contradicted, 0);
   EXPECT_GT(same.residual, 0);
@@ -189,7 +181,7 @@ TEST(CloudAgreement, TellsAMatchFromAContradiction)
 
   // Half a metre along x: floor and one wall still match, the other wall hangs in the
   // air that the sensor looked through.
-  const Pose slid = poseOf(motion(0, {0.5, 0, 0}));
+  const Pose slid = toPose(motion(0, {0.5, 0, 0}));
   const CloudAgreement sliding = look(slid);
   EXPECT_GT(sliding.matched, 0.4);
   EXPECT_GT(sliding.contradicted, 0.05);
@@ -204,7 +196,7 @@ TEST(CloudAgreement, TellsAMatchFromAContradiction)
   over.linear() = Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitX())
                       .toRotationMatrix();
   over.translation().y() = 2;
-  EXPECT_LT(look(poseOf(over)).matched, 0.1);
+  EXPECT_LT(look(toPose(over)).matched, 0.1);
 }
 
 TEST(PlaneAlignment, MovesAPoseOntoTheSurface)
@@ -212,7 +204,7 @@ TEST(PlaneAlignment, MovesAPoseOntoTheSurface)
   const Corner corner(1), other(2);
   const Surface source = surfaceOf(corner.view()), target = surfaceOf(other.view());
   const SurfacePair clouds{source, target, SPACING};
-  const Pose moved = moveOntoTarget(clouds, poseOf(motion(1.5, {0.02, -0.03, 0.025})));
+  const Pose moved = moveOntoTarget(clouds, toPose(motion(1.5, {0.02, -0.03, 0.025})));
   for (const Eigen::Vector3d& p :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2.4, 2, 2)}) {
     const Vec3 at = transform(moved, {p.x(), p.y(), p.z()});
@@ -224,7 +216,7 @@ TEST(PrincipalMotions, AWallAloneHoldsNothing)
 {
   const Surface corner = surfaceOf(Corner(1).view());
   const Surface wall = surfaceOf(Corner(1, 1).view());
-  const Pose identity = poseOf(Eigen::Isometry3d::Identity());
+  const Pose identity = toPose(Eigen::Isometry3d::Identity());
   EXPECT_GT(principalMotions({corner, corner, SPACING}, identity).front().stiffness,
             0.02);
   const std::vector<Motion> motions = principalMotions({wall, wall, SPACING}, identity);
@@ -240,7 +232,7 @@ TEST(PrincipalMotions, MoveAlongAScrew)
   motion.turn = {0, 0, 0.5};
   motion.shift = {0, 0, 0.25};
   const double pi = 3.14159265358979323846;
-  const Pose moved = moveAlong(poseOf(Eigen::Isometry3d::Identity()), motion, 2 * pi);
+  const Pose moved = moveAlong(toPose(Eigen::Isometry3d::Identity()), motion, 2 * pi);
   const Vec3 at = transform(moved, {2, 2, 3});
   EXPECT_NEAR(at.x, 0, 1e-12) << "half a turn about the middle";
   EXPECT_NEAR(at.y, 2, 1e-12);
@@ -253,7 +245,7 @@ TEST(PrincipalMotions, MoveAlongAScrew)
 TEST(Walk, IsAtAnotherPoseFromNineSpacingsOn)
 {
   ThreadPool pool(2);
-  const Pose identity = poseOf(Eigen::Isometry3d::Identity());
+  const Pose identity = toPose(Eigen::Isometry3d::Identity());
   for (const int walls : {1, 3}) {
     const Surface source = surfaceOf(Corner(1, walls).view());
     const Surface target = surfaceOf(Corner(2, walls).view());

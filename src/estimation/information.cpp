@@ -3,6 +3,8 @@
 
 #include "estimation/information.h"
 
+#include "math/isometry.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -25,8 +27,7 @@ informationMatrix(const Problem& problem,
     const Vec3 residual = moved - problem.target(i);
     squared_residuals += dot(residual, residual);
     const Vec3 y = moved + target_centre;
-    Eigen::Matrix3d cross_y;
-    cross_y << 0, -y.z, y.y, y.z, 0, -y.x, -y.y, y.x, 0;
+    const Eigen::Matrix3d cross_y = crossMatrix({y.x, y.y, y.z});
     hessian.topLeftCorner<3, 3>() += cross_y.transpose() * cross_y;
     hessian.topRightCorner<3, 3>() += cross_y;
     hessian.bottomRightCorner<3, 3>() += Eigen::Matrix3d::Identity();

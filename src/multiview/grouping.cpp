@@ -187,6 +187,13 @@ private:
   std::map<std::size_t, std::vector<const PairVotes*>> within_;
 };
 
+std::vector<std::size_t>
+without(std::vector<std::size_t> group, std::size_t scan)
+{
+  group.erase(std::find(group.begin(), group.end(), scan));
+  return group;
+}
+
 /** \brief Where a scan would be put among others that are all in one frame, and how sure that is:
  * the logarithm of the odds. */
 struct Placing {
@@ -232,13 +239,12 @@ confidenceOf(std::size_t scan,
 {
   double here = 0, elsewhere = 0, nowhere = 1;
   for (const std::vector<std::size_t>& group : groups) {
-    const bool own = std::binary_search(group.begin(), group.end(), scan);
-    std::vector<std::size_t> others = group;
-    if (own)
-      others.erase(std::find(others.begin(), others.end(), scan));
-    if (others.empty() || (!own && others.size() < 2))
+    if (group.size() < 2)
       continue;
-    const auto placing = placeAmong(others, scan, pairs_of_scan, scans, poses);
+    const bool own = std::binary_search(group.begin(), group.end(), scan);
+    const auto placing =
+        own ? placeAmong(without(group, scan), scan, pairs_of_scan, scans, poses)
+            : placeAmong(group, scan, pairs_of_scan, scans, poses);
     if (!placing)
       continue;
     const double probability = 1 / (1 + std::exp(-placing->odds));

@@ -26,14 +26,6 @@ constexpr std::size_t MOST_MEETINGS = 48;
 /** \brief Of a scan's points: what stays below it tells nothing. */
 constexpr double NOTHING = 0.005;
 
-SurfacePair
-clouds(const MapScan& source, const MapScan& target)
-{
-  return {source.surface,
-          target.surface,
-          static_cast<float>(std::max(source.spacing, target.spacing))};
-}
-
 } // namespace
 
 double
@@ -84,7 +76,7 @@ JointJudgement::agreement(const std::vector<Meeting>& meetings,
   double points = 0;
   for (const Meeting& meeting : meetings) {
     const auto source = scans_(meeting.moving), target = scans_(meeting.fixed);
-    const SurfacePair pair = clouds(*source, *target);
+    const SurfacePair pair = cloudsOf(*source, *target);
     const Look look(pair, POINTS, TOLERANCE, MARGIN);
     const CloudAgreement agreement = look(toPose(between(meeting, T_fixed_moving)));
     const auto both = static_cast<double>(source->size() + target->size());
@@ -108,7 +100,7 @@ JointJudgement::addContacts(const Meeting& meeting,
 {
   const auto source = scans_(meeting.moving), target = scans_(meeting.fixed);
   const std::size_t first = contacts.size();
-  findContacts(clouds(*source, *target),
+  findContacts(cloudsOf(*source, *target),
                toRigidFloat(toPose(between(meeting, T_fixed_moving))),
                reach,
                contacts);

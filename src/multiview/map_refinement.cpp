@@ -25,10 +25,18 @@ constexpr double LEAST_MATCHED = 0.02;
 /** \brief Contradicted over matched, at most. */
 constexpr double MOST_CONTRADICTED = 0.3;
 
-/** \brief Optimizes those poses of a map that constraints are about.
- * \param[in] constraints with numbers of scans */
+/** \brief By how much surfaces count that no pair speaks for. */
+constexpr double UNVOUCHED = 0.1;
+
+CloudAgreement
+agreementOf(const MapScan& source, const MapScan& target, const Eigen::Isometry3d& T)
+{
+  return Look(cloudsOf(source, target), POINTS, TOLERANCE, MARGIN)(toPose(T));
+}
+
+/** \brief Optimizes those poses of a map that edges are about. */
 void
-optimizeGroup(std::vector<PoseConstraint> constraints,
+optimizeGroup(const std::vector<SurfaceEdge>& edges,
               const std::vector<std::size_t>& group,
               MapPoses& poses)
 {
@@ -36,9 +44,11 @@ optimizeGroup(std::vector<PoseConstraint> constraints,
     return static_cast<std::size_t>(std::lower_bound(group.begin(), group.end(), scan) -
                                     group.begin());
   };
-  for (PoseConstraint& constraint : constraints) {
-    constraint.target = positionOf(constraint.target);
-    constraint.source = positionOf(constraint.source);
+  std::vector<PoseConstraint> constraints;
+  for (const SurfaceEdge& edge : edges) {
+    constraints.push_back(edge.constraint);
+    constraints.back().target = positionOf(edge.constraint.target);
+    constraints.back().source = positionOf(edge.constraint.source);
   }
   MapPoses of_group;
   for (const std::size_t scan : group)
@@ -48,31 +58,40 @@ optimizeGroup(std::vector<PoseConstraint> constraints,
     poses[group[i]] = of_group[i];
 }
 
+/** \brief Two scans of a map, under a pose of their own. */
+std::optional<SurfaceEdge>
+edgeBetween(const MapScans& scans,
+            std::size_t target,
+            std::size_t source,
+            const Eigen::Isometry3d& T_target_source)
+{
+  std::optional<PoseConstraint> constraint =
+      surfaceConstraint(*scans(target), *scans(source), T_target_source);
+  if (!constraint)
+    return std::nullopt;
+  constraint->target = target;
+  constraint->source = source;
+  SurfaceEdge edge;
+  edge.constraint = std::move(*constraint);
+  return edge;
+}
+
 /** \brief The pose that a pair speaks for and that agrees with the map's. */
 std::optional<SurfaceEdge>
 agreeing(const MapScans& scans, const PairVotes& pair, const MapPoses& poses)
 {
-  const auto target = scans(pair.target), source = scans(pair.source);
   const Eigen::Isometry3d by_map =
       poses[pair.target].inverse(Eigen::Isometry) * poses[pair.source];
+  const double spacing = scans(pair.target)->spacing;
   for (const Vote& vote : pair.votes) {
-    if (!samePlace(by_map, vote.T_target_source, target->spacing))
+    if (!samePlace(by_map, vote.T_target_source, spacing))
       continue;
-    std::optional<PoseConstraint> constraint =
-        surfaceConstraint(*target, *source, vote.T_target_source);
-    if (!constraint)
-      return std::nullopt;
-    constraint->target = pair.target;
-    constraint->source = pair.source;
-    constraint->weight *= vote.probability;
-    const SurfacePair clouds{
-        source->surface,
-        target->surface,
-        static_cast<float>(std::max(target->spacing, source->spacing))};
-    return SurfaceEdge{
-        *constraint,
-        Look(clouds, POINTS, TOLERANCE, MARGIN)(toPose(vote.T_target_source)),
-        vote.probability};
+    auto edge = edgeBetween(scans, pair.target, pair.source, vote.T_target_source);
+    if (edge) {
+      edge->constraint.weight *= vote.probability;
+      edge->probability = vote.probability;
+    }
+    return edge;
   }
   return std::nullopt;
 }
@@ -80,27 +99,26 @@ agreeing(const MapScans& scans, const PairVotes& pair, const MapPoses& poses)
 /** \brief Two scans as they lie in the map, moved onto each other; nothing where they don't
  * touch, or the surfaces say otherwise. */
 std::optional<SurfaceEdge>
-touching(const MapScan& target, const MapScan& source, const Eigen::Isometry3d& by_map)
+touching(const MapScans& scans,
+         std::size_t target,
+         std::size_t source,
+         const MapPoses& poses)
 {
-  const SurfacePair clouds{
-      source.surface,
-      target.surface,
-      static_cast<float>(std::max(target.spacing, source.spacing))};
-  const Look look(clouds, POINTS, TOLERANCE, MARGIN);
-  if (look(toPose(by_map)).matched < LEAST_MATCHED / 2)
+  const Eigen::Isometry3d by_map =
+      poses[target].inverse(Eigen::Isometry) * poses[source];
+  const auto to = scans(target), from = scans(source);
+  if (agreementOf(*from, *to, by_map).matched < LEAST_MATCHED / 2)
     return std::nullopt;
-  SurfaceEdge edge;
+  const SurfacePair clouds = cloudsOf(*from, *to);
   const Eigen::Isometry3d moved = toIsometry(moveOntoTarget(clouds, toPose(by_map)));
-  edge.agreement = look(toPose(moved));
-  if (edge.agreement.matched < LEAST_MATCHED ||
-      edge.agreement.contradicted > MOST_CONTRADICTED * edge.agreement.matched ||
+  const CloudAgreement agreement = agreementOf(*from, *to, moved);
+  if (agreement.matched < LEAST_MATCHED ||
+      agreement.contradicted > MOST_CONTRADICTED * agreement.matched ||
       !samePlace(by_map, moved, clouds.spacing))
     return std::nullopt;
-  std::optional<PoseConstraint> constraint = surfaceConstraint(target, source, moved);
-  if (!constraint)
-    return std::nullopt;
-  edge.constraint = std::move(*constraint);
-  edge.constraint.weight *= 0.1;
+  auto edge = edgeBetween(scans, target, source, moved);
+  if (edge)
+    edge->constraint.weight *= UNVOUCHED;
   return edge;
 }
 
@@ -121,14 +139,13 @@ pairsInReach(const MapScans& scans,
   return near;
 }
 
-template <typename Value>
-std::vector<Value>
-present(std::vector<std::optional<Value>>& values)
+std::vector<SurfaceEdge>
+present(std::vector<std::optional<SurfaceEdge>>& edges)
 {
-  std::vector<Value> result;
-  for (std::optional<Value>& value : values)
-    if (value)
-      result.push_back(std::move(*value));
+  std::vector<SurfaceEdge> result;
+  for (std::optional<SurfaceEdge>& edge : edges)
+    if (edge)
+      result.push_back(std::move(*edge));
   return result;
 }
 
@@ -145,11 +162,7 @@ settlePoses(const MapScans& scans,
   pool.forEach(pairs.size(), [&](std::size_t i, std::size_t) {
     edges[i] = agreeing(scans, *pairs[i], poses);
   });
-  std::vector<PoseConstraint> constraints;
-  for (const std::optional<SurfaceEdge>& edge : edges)
-    if (edge)
-      constraints.push_back(edge->constraint);
-  optimizeGroup(constraints, group, poses);
+  optimizeGroup(present(edges), group, poses);
 }
 
 std::vector<SurfaceEdge>
@@ -168,26 +181,27 @@ refineMap(const MapScans& scans,
         pairsInReach(scans, group, poses);
     std::vector<std::optional<SurfaceEdge>> found(near.size());
     pool.forEach(near.size(), [&](std::size_t i, std::size_t) {
-      const auto [target, source] = near[i];
       const auto pair = votes.find(near[i]);
       if (pair != votes.end())
         found[i] = agreeing(scans, *pair->second, poses);
       if (!found[i])
-        found[i] = touching(*scans(target),
-                            *scans(source),
-                            poses[target].inverse(Eigen::Isometry) * poses[source]);
-      if (found[i]) {
-        found[i]->constraint.target = target;
-        found[i]->constraint.source = source;
-      }
+        found[i] = touching(scans, near[i].first, near[i].second, poses);
     });
     edges = present(found);
-    std::vector<PoseConstraint> constraints;
-    for (const SurfaceEdge& edge : edges)
-      constraints.push_back(edge.constraint);
-    optimizeGroup(constraints, group, poses);
+    optimizeGroup(edges, group, poses);
   }
   return edges;
+}
+
+void
+askClouds(const MapScans& scans, std::vector<SurfaceEdge>& edges, ThreadPool& pool)
+{
+  pool.forEach(edges.size(), [&](std::size_t i, std::size_t) {
+    const PoseConstraint& constraint = edges[i].constraint;
+    edges[i].agreement = agreementOf(*scans(constraint.source),
+                                     *scans(constraint.target),
+                                     constraint.T_target_source);
+  });
 }
 
 } // namespace pcl_flashreg

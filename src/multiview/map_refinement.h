@@ -27,7 +27,7 @@ settlePoses(const MapScans& scans,
 struct SurfaceEdge {
   /** \brief Where they lie by themselves, near to where the map has them. */
   PoseConstraint constraint;
-  /** \brief Of the clouds under that pose. */
+  /** \brief Of the clouds under that pose, once askClouds() has filled it in. */
   CloudAgreement agreement;
   /** \brief That the pose is right, by these two scans alone; 0 where they don't speak for it. */
   double probability = 0;
@@ -42,5 +42,9 @@ refineMap(const MapScans& scans,
           const std::vector<std::size_t>& group,
           MapPoses& poses,
           ThreadPool& pool);
+
+/** \brief Asks the clouds of each edge about its pose. */
+void
+askClouds(const MapScans& scans, std::vector<SurfaceEdge>& edges, ThreadPool& pool);
 
 } // namespace pcl_flashreg

@@ -33,8 +33,7 @@ informationOf(const PoseConstraint& constraint, const Eigen::Vector3d& target_mi
 {
   const Eigen::Vector3d arm = target_middle + constraint.middle;
   Eigen::Matrix<double, 6, 6> to_middle = Eigen::Matrix<double, 6, 6>::Identity();
-  to_middle.bottomLeftCorner<3, 3>() << 0, arm.z(), -arm.y(), -arm.z(), 0, arm.x(),
-      arm.y(), -arm.x(), 0;
+  to_middle.bottomLeftCorner<3, 3>() = -crossMatrix(arm);
   return constraint.weight * to_middle.transpose() * constraint.hessian * to_middle;
 }
 

@@ -41,25 +41,6 @@ MapScan::MapScan(const Scan& scan) : spacing(scan.spacing())
     radius = std::max(radius, static_cast<double>(point.norm()));
 }
 
-Pose
-toPose(const Eigen::Isometry3d& T)
-{
-  Pose pose;
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.r) = T.linear();
-  Eigen::Map<Eigen::Vector3d>(pose.t) = T.translation();
-  return pose;
-}
-
-Eigen::Isometry3d
-toIsometry(const Pose& T)
-{
-  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
-  isometry.linear() =
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(T.r);
-  isometry.translation() = Eigen::Map<const Eigen::Vector3d>(T.t);
-  return isometry;
-}
-
 Eigen::Isometry3d
 betweenMiddles(const RigidTransform& T, const MapScan& target, const MapScan& source)
 {
@@ -77,10 +58,12 @@ betweenFrames(const Eigen::Isometry3d& T, const MapScan& target, const MapScan& 
   return result;
 }
 
-double
-angleOf(const Eigen::Matrix3d& rotation)
+SurfacePair
+cloudsOf(const MapScan& source, const MapScan& target)
 {
-  return Eigen::AngleAxisd(rotation).angle();
+  return {source.surface,
+          target.surface,
+          static_cast<float>(std::max(source.spacing, target.spacing))};
 }
 
 bool

@@ -3,7 +3,8 @@
 
 #pragma once
 
-#include "judgement/cpu/surface.h"
+#include "judgement/cpu/agreement.h"
+#include "math/isometry.h"
 
 #include <pcl_flashreg/result.h>
 #include <pcl_flashreg/scan.h>
@@ -42,12 +43,6 @@ using MapScans = std::function<std::shared_ptr<const MapScan>(std::size_t)>;
 /** \brief A pose of each scan's middle, in the frame of its group. */
 using MapPoses = std::vector<Eigen::Isometry3d>;
 
-Pose
-toPose(const Eigen::Isometry3d& T);
-
-Eigen::Isometry3d
-toIsometry(const Pose& T);
-
 /** \brief Between middles, from a pose between frames. */
 Eigen::Isometry3d
 betweenMiddles(const RigidTransform& T_target_source,
@@ -60,9 +55,9 @@ betweenFrames(const Eigen::Isometry3d& T_target_source,
               const MapScan& target,
               const MapScan& source);
 
-/** \brief Angle of a rotation, in radians. */
-double
-angleOf(const Eigen::Matrix3d& rotation);
+/** \brief For the judges; both scans are to outlive it. */
+SurfacePair
+cloudsOf(const MapScan& source, const MapScan& target);
 
 /** \brief Whether two poses of a scan are the same but for noise and drift. */
 bool

@@ -223,6 +223,7 @@ MultiviewRegistration::place(std::size_t count,
     for (SurfaceEdge& edge :
          refineMap(scans, within(group, pairs), group, map.poses, impl_->pool))
       edges.push_back(std::move(edge));
+  askClouds(scans, edges, impl_->pool);
   timings.refinement = total.milliseconds() - timings.grouping;
   MultiviewResult result =
       reportOf(map, edges, pairs, confidencesOf(scans, pairs, map, impl_->pool), scans);
@@ -240,10 +241,8 @@ MultiviewRegistration::align(const std::vector<Scan>& scans,
   std::vector<ScanRelation> relations;
   MultiviewResult result;
   MultiviewTimings spent;
-  for (std::vector<ScanPair> pairs = choosePairs(scans.size(), source, options);;
-       pairs = choosePairs(source, relations, result, options)) {
-    if (pairs.empty() && !relations.empty())
-      break;
+  std::vector<ScanPair> pairs = choosePairs(scans.size(), source, options);
+  do {
     const detail::Stopwatch relating;
     for (ScanRelation& relation : relate(source, pairs, options))
       relations.push_back(std::move(relation));
@@ -251,9 +250,8 @@ MultiviewRegistration::align(const std::vector<Scan>& scans,
     result = place(scans.size(), source, relations, options);
     spent.grouping += result.timings.grouping;
     spent.refinement += result.timings.refinement;
-    if (pairs.empty())
-      break;
-  }
+    pairs = choosePairs(source, relations, result, options);
+  } while (!pairs.empty());
   spent.total = watch.milliseconds();
   result.timings = spent;
   return result;

@@ -3,6 +3,8 @@
 
 #include "multiview/pose_graph.h"
 
+#include "math/isometry.h"
+
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
@@ -21,14 +23,6 @@ constexpr int ROUNDS = 30;
 /** \brief It is enough when a round gains less than this share of the cost. */
 constexpr double ENOUGH = 1e-7;
 constexpr double FIRST_DAMPING = 1e-6, MOST_DAMPING = 1e6;
-
-Eigen::Matrix3d
-crossMatrix(const Eigen::Vector3d& v)
-{
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 Eigen::Matrix3d
 turnBy(const Eigen::Vector3d& turn)

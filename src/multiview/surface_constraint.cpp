@@ -5,8 +5,6 @@
 
 #include "judgement/cpu/contacts.h"
 
-#include <algorithm>
-
 namespace pcl_flashreg {
 namespace {
 
@@ -24,15 +22,9 @@ surfaceConstraint(const MapScan& target,
                   const MapScan& source,
                   const Eigen::Isometry3d& T_target_source)
 {
-  const auto spacing = static_cast<float>(std::max(target.spacing, source.spacing));
-  const RigidFloat forward = toRigidFloat(toPose(T_target_source));
-  std::vector<Contact> contacts, back;
-  findContacts({source.surface, target.surface, spacing}, forward, TOUCHING, contacts);
-  findContacts(
-      {target.surface, source.surface, spacing}, inverse(forward), TOUCHING, back);
-  for (const Contact& contact : back)
-    contacts.push_back(
-        {forward * contact.place, forward.rotation * contact.normal, contact.residual});
+  const SurfacePair clouds = cloudsOf(source, target);
+  const std::vector<Contact> contacts =
+      contactsOfBoth(clouds, toRigidFloat(toPose(T_target_source)), TOUCHING);
   if (contacts.size() < LEAST_CONTACTS)
     return std::nullopt;
   PoseConstraint constraint;
@@ -48,7 +40,7 @@ surfaceConstraint(const MapScan& target,
   const auto count = static_cast<double>(contacts.size());
   constraint.hessian.diagonal().head<3>().array() += STIFFNESS * spread;
   constraint.hessian.diagonal().tail<3>().array() += STIFFNESS * count;
-  constraint.hessian /= count * USUAL * spacing * USUAL * spacing;
+  constraint.hessian /= count * USUAL * clouds.spacing * USUAL * clouds.spacing;
   constraint.weight = count;
   return constraint;
 }

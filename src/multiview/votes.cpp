@@ -56,7 +56,7 @@ betweenGroups(const PairVotes& pair,
 }
 
 /** \brief The pose of the moving group that fits best to where its supporters put its scans,
- * each by its probability (Horn; by a singular value decomposition). */
+ * each by its probability: the rotation that is nearest to the mean of theirs. */
 Eigen::Isometry3d
 meanOf(const Eigen::Isometry3d& T_fixed_moving,
        const std::vector<GroupVotes>& pairs,

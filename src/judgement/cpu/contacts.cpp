@@ -34,6 +34,19 @@ findContacts(const SurfacePair& clouds,
   }
 }
 
+std::vector<Contact>
+contactsOfBoth(const SurfacePair& clouds, const RigidFloat& pose, const Reach& reach)
+{
+  std::vector<Contact> contacts, back;
+  findContacts(clouds, pose, reach, contacts);
+  findContacts(
+      {clouds.target, clouds.source, clouds.spacing}, inverse(pose), reach, back);
+  for (const Contact& contact : back)
+    contacts.push_back(
+        {pose * contact.place, pose.rotation * contact.normal, contact.residual});
+  return contacts;
+}
+
 Eigen::Vector3d
 middleOf(const std::vector<Contact>& contacts)
 {

@@ -35,6 +35,11 @@ findContacts(const SurfacePair& clouds,
              const Reach& reach,
              std::vector<Contact>& contacts);
 
+/** \brief What either cloud's points touch, in the target's frame, so that the order of the
+ * clouds makes no difference. */
+std::vector<Contact>
+contactsOfBoth(const SurfacePair& clouds, const RigidFloat& pose, const Reach& reach);
+
 /** \brief The mean of their places. */
 Eigen::Vector3d
 middleOf(const std::vector<Contact>& contacts);

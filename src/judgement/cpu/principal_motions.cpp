@@ -20,21 +20,6 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr Reach TOUCHING{1000, 1.5f, 0.85f};
 constexpr std::size_t MIN_CONTACTS = 10;
 
-/** \brief What either cloud's points touch, in the target's frame. */
-std::vector<Contact>
-contactsOf(const SurfacePair& clouds, const Pose& pose)
-{
-  const RigidFloat forward = toRigidFloat(pose);
-  std::vector<Contact> contacts, back;
-  findContacts(clouds, forward, TOUCHING, contacts);
-  findContacts(
-      {clouds.target, clouds.source, clouds.spacing}, inverse(forward), TOUCHING, back);
-  for (const Contact& contact : back)
-    contacts.push_back(
-        {forward * contact.place, forward.rotation * contact.normal, contact.residual});
-  return contacts;
-}
-
 double
 spreadOf(const std::vector<Contact>& contacts, const Eigen::Vector3d& middle)
 {
@@ -49,7 +34,8 @@ spreadOf(const std::vector<Contact>& contacts, const Eigen::Vector3d& middle)
 std::vector<Motion>
 principalMotions(const SurfacePair& clouds, const Pose& pose)
 {
-  const std::vector<Contact> contacts = contactsOf(clouds, pose);
+  const std::vector<Contact> contacts =
+      contactsOfBoth(clouds, toRigidFloat(pose), TOUCHING);
   if (contacts.size() < MIN_CONTACTS)
     return {};
   const Eigen::Vector3d middle = middleOf(contacts);
