@@ -112,6 +112,12 @@ TEST_F(CliMapInput, namesTellScansApart)
   for (const char* name :
        {"\nscan_0.pcd,", "\nscans/scan_1.pcd,", "\nmore/scan_1.pcd,"})
     EXPECT_NE(read("p.csv").find(name), std::string::npos) << read("p.csv");
+  // By no more of the path than it takes.
+  ASSERT_EQ(makeMap(path("scans") + " " + path("more") + " -o map.pcd --poses q.csv" +
+                    LEAF + " --pairs q.pairs.csv")
+                .status,
+            0);
+  EXPECT_EQ(read("p.csv"), read("q.csv"));
 }
 
 TEST_F(CliMapInput, readsRawScans)

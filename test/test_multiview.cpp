@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 namespace pcl_flashreg {
 namespace {
@@ -266,56 +267,89 @@ TEST(Multiview, InformationIsAboutTheOriginOfTheTarget)
   }
 }
 
-TEST(Multiview, PairsAreTriedInRounds)
+/** \brief The pairs that are asked for, round by round, until there are no more. */
+std::vector<std::vector<MultiviewRegistration::ScanPair>>
+roundsOf(const MultiviewOptions& options, MultiviewResult* map = nullptr)
 {
   MultiviewRegistration registration(BackendKind::Cpu, 2);
+  std::vector<std::vector<MultiviewRegistration::ScanPair>> rounds;
+  const auto relate = [&](const std::vector<MultiviewRegistration::ScanPair>& pairs) {
+    rounds.push_back(pairs);
+    return registration.relate(mixture().source(), pairs, options);
+  };
+  const MultiviewResult result =
+      registration.align(mixture().scans.size(), mixture().source(), relate, options);
+  if (map)
+    *map = result;
+  return rounds;
+}
+
+TEST(Multiview, PairsAreTriedInRounds)
+{
   MultiviewOptions options;
   options.alike = 2;
-  const auto first =
-      registration.choosePairs(mixture().scans.size(), mixture().source(), options);
+  MultiviewResult map;
+  const auto rounds = roundsOf(options, &map);
+  ASSERT_GE(rounds.size(), 2u);
+  const auto& first = rounds.front();
   EXPECT_GE(first.size(), mixture().scans.size());
   EXPECT_LT(first.size(), 2 * mixture().scans.size() + 1);
   EXPECT_TRUE(std::is_sorted(first.begin(), first.end()));
   // The room looks like itself.
   EXPECT_EQ(std::count(first.begin(), first.end(), std::pair(6ul, 7ul)), 1);
 
-  std::vector<ScanRelation> tried;
-  for (const ScanRelation& relation : relations())
-    if (std::count(
-            first.begin(), first.end(), std::pair(relation.target, relation.source)))
-      tried.push_back(relation);
-  const MultiviewResult map = place(tried);
+  // No pair twice; what is asked the other way round was asked before.
+  std::set<MultiviewRegistration::ScanPair> asked;
+  for (const auto& round : rounds)
+    for (const auto& [target, source] : round) {
+      EXPECT_TRUE(asked.insert({target, source}).second);
+      if (target > source) {
+        EXPECT_EQ(asked.count({source, target}), 1u);
+      }
+    }
+  // Of few scans, all pairs that the map does not tie.
   for (const auto& [target, source] :
-       registration.choosePairs(mixture().source(), tried, map, options)) {
-    EXPECT_NE(map.scans[target].group, map.scans[source].group);
-    EXPECT_EQ(std::count(first.begin(), first.end(), std::pair(target, source)), 0);
-  }
+       MultiviewRegistration::allPairs(mixture().scans.size()))
+    if (map.scans[target].group != map.scans[source].group) {
+      EXPECT_EQ(asked.count({target, source}), 1u) << target << ' ' << source;
+    }
+}
 
-  // All tried: those across the groups that promise something are asked the other way round.
-  const MultiviewResult all = place(relations());
-  const auto last =
-      registration.choosePairs(mixture().source(), relations(), all, options);
-  for (const auto& [target, source] : last) {
-    EXPECT_GT(target, source);
-    EXPECT_NE(all.scans[target].group, all.scans[source].group);
+TEST(Multiview, OfManyScansFewPairsAreTried)
+{
+  MultiviewOptions options;
+  options.alike = 1;
+  options.all_pairs_up_to = 3;
+  std::vector<std::size_t> tries(mixture().scans.size());
+  for (const auto& round : roundsOf(options)) {
+    EXPECT_LE(round.size(), mixture().scans.size());
+    for (const auto& [target, source] : round)
+      if (target < source) {
+        ++tries[target];
+        ++tries[source];
+      }
   }
-  std::vector<ScanRelation> both = relations();
-  for (ScanRelation& relation : registration.relate(mixture().source(), last, options))
-    both.push_back(std::move(relation));
-  EXPECT_TRUE(
-      registration.choosePairs(mixture().source(), both, place(both), options).empty());
+  EXPECT_LT(*std::max_element(tries.begin(), tries.end()), tries.size() - 1);
 }
 
 TEST(Multiview, OfASequenceNeighboursAreTried)
 {
-  MultiviewRegistration registration(BackendKind::Cpu, 2);
   MultiviewOptions options;
   options.alike = 1;
   options.sequence = true;
-  const auto pairs =
-      registration.choosePairs(mixture().scans.size(), mixture().source(), options);
+  const auto pairs = roundsOf(options).front();
   for (std::size_t i = 0; i + 1 < mixture().scans.size(); ++i)
     EXPECT_EQ(std::count(pairs.begin(), pairs.end(), std::pair(i, i + 1)), 1) << i;
+}
+
+TEST(Multiview, WhatTheRelatingThrowsEndsIt)
+{
+  struct Enough {};
+  MultiviewRegistration registration(BackendKind::Cpu, 2);
+  const auto relate = [](const auto&) -> std::vector<ScanRelation> { throw Enough(); };
+  EXPECT_THROW(registration.align(2, mixture().source(), relate), Enough);
+  // It is of use after that.
+  EXPECT_EQ(registration.align({mixture().scans[6], mixture().scans[7]}).placed(), 2u);
 }
 
 TEST(Multiview, AlignDoesItAll)
@@ -373,8 +407,7 @@ TEST(Multiview, WhatCantBeIsSaid)
   }
   options = {};
   options.alike = 0;
-  EXPECT_THROW(registration.choosePairs(2, mixture().source(), options),
-               std::invalid_argument);
+  EXPECT_THROW(registration.align(mixture().ofHall(), options), std::invalid_argument);
 }
 
 /** \brief Pairs that overlap are found as well, and what does not is certain of nothing. */

@@ -4,12 +4,15 @@
 // The parts of src/multiview, each by itself.
 
 #include "multiview/likeness.h"
+#include "multiview/map_scans.h"
 #include "multiview/pose_graph.h"
 #include "multiview/votes.h"
 #include "support/made_correspondences.h"
+#include "support/made_scans.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 namespace pcl_flashreg {
@@ -231,8 +234,9 @@ protected:
   static std::vector<PairVotes>
   votes(const std::vector<ScanRelation>& relations)
   {
-    const auto scan = std::make_shared<MapScan>(Scan());
-    return votesOf(relations, [&](std::size_t) { return scan; });
+    MapScan scan;
+    scan.spacing = 0.1;
+    return votesOf(relations, {scan, scan});
   }
 };
 
@@ -292,6 +296,49 @@ TEST(Likeness, IsGreatestOfWhatIsTheSame)
   EXPECT_EQ(likeness(0, 4), 0);
   EXPECT_EQ(likeness.ranked(3).front(), 2u);
   EXPECT_EQ(likeness.ranked(3).size(), 4u);
+}
+
+/** \brief Surfaces of two scans, with memory for all, and for none. */
+TEST(MapScans, SurfacesAreMadeAgainWhereThereIsNoRoom)
+{
+  const made::RoomScans room;
+  PairRegistration registration(BackendKind::Cpu, 1);
+  const std::vector<Scan> scans{registration.makeScan(room.targetInput(), 0.1),
+                                registration.makeScan(room.sourceInput(), 0.1)};
+  std::atomic<int> asked{0};
+  const auto source = [&](std::size_t i) {
+    ++asked;
+    return scans[i];
+  };
+  ThreadPool pool(2);
+  const MapScans roomy(2, source, pool), narrow(2, source, pool, 1);
+  EXPECT_EQ(asked, 4);
+  for (int round = 0; round < 3; ++round) {
+    const TwoClouds kept = roomy.clouds(0, 1), made = narrow.clouds(0, 1);
+    EXPECT_EQ(asked, 4 + 2 * (round + 1));
+    EXPECT_EQ(kept.source->points, made.source->points);
+    EXPECT_EQ(kept.target->normals, made.target->normals);
+    EXPECT_EQ(kept.spacing, made.spacing);
+    EXPECT_EQ(kept.source, roomy.clouds(0, 1).source);
+  }
+  EXPECT_EQ(roomy[0].radius, narrow[0].radius);
+  EXPECT_GT(roomy[0].radius, 0);
+}
+
+TEST(MapScans, OfABlindScanNoSpaceIsEmpty)
+{
+  const made::RoomScans room;
+  PairRegistration registration(BackendKind::Cpu, 1);
+  const Scan scan = registration.makeScan(room.targetInput(), 0.1);
+  ThreadPool pool(1);
+  MapScans scans(
+      2, [&](std::size_t) { return scan; }, pool);
+  EXPECT_TRUE(scans.clouds(0, 1).pair().oriented());
+  scans.setBlind({true, false});
+  EXPECT_FALSE(scans.clouds(0, 1).source->free_space.known());
+  EXPECT_TRUE(scans.clouds(0, 1).target->free_space.known());
+  scans.setBlind({false, false});
+  EXPECT_TRUE(scans.clouds(0, 1).pair().oriented());
 }
 
 } // namespace

@@ -46,7 +46,10 @@ public:
     read(files);
     ranks_.wait(); // all have looked at the pairs' file before the first one makes it
     PairRelations pairs(options_, scans_, source_, ranks_, registration_);
-    if (!relateAndPlace(pairs)) {
+    try {
+      relateAndPlace(pairs);
+    }
+    catch (const ShardDone&) {
       messages_.note(
           "these pairs are done: once all shards are, --resume makes the map");
       return COMPLETE;
@@ -75,42 +78,27 @@ private:
     run_.times.reading = watch.milliseconds();
   }
 
-  /** \brief In rounds: what the map does not tie together is tried again. Each rank makes the
-   * same map, and knows by that which pairs are next.
-   * \return false where a shard ends before there is a map */
-  bool
+  /** \brief What ends the rounds of a shard, which is only to do its pairs. */
+  struct ShardDone {};
+
+  /** \brief Each rank makes the same map, and knows by that which pairs are next. */
+  void
   relateAndPlace(PairRelations& pairs)
   {
-    const MultiviewOptions options = options_.multiview();
-    std::vector<ScanRelation> relations;
-    const auto timed = [](double& milliseconds, const auto& work) {
-      const detail::Stopwatch watch;
-      auto result = work();
-      milliseconds += watch.milliseconds();
-      return result;
-    };
-    for (bool first = true;; first = false) {
-      const std::vector<ScanPair> next = timed(run_.times.relations, [&] {
-        return first ? registration_.choosePairs(scans_.files.size(), source_, options)
-                     : registration_.choosePairs(
-                           source_, relations, run_.result, options);
-      });
-      if (next.empty() && !first)
-        break;
+    const auto relate = [&](const std::vector<ScanPair>& next) {
       if (options_.shard && pairs.relateShard(next))
-        return false;
-      for (ScanRelation& relation :
-           timed(run_.times.relations, [&] { return pairs.of(next); }))
-        relations.push_back(std::move(relation));
+        throw ShardDone();
+      std::vector<ScanRelation> relations = pairs.of(next);
+      run_.pairs += relations.size();
       messages_.say("placing the scans");
-      run_.result = timed(run_.times.placing, [&] {
-        return registration_.place(scans_.files.size(), source_, relations, options);
-      });
-    }
+      return relations;
+    };
+    run_.result =
+        registration_.align(scans_.files.size(), source_, relate, options_.multiview());
+    run_.times.relations = run_.result.timings.relations;
+    run_.times.placing = run_.result.timings.grouping + run_.result.timings.refinement;
     run_.min_confidence = options_.min_confidence;
-    run_.pairs = relations.size();
     run_.known_pairs = pairs.knownBefore();
-    return true;
   }
 
   void

@@ -70,18 +70,46 @@ checkTwice(const std::vector<std::string>& paths)
   }
 }
 
-/** \brief Names of files, or where these don't tell files apart, paths. */
+/** \brief Folders of a path that are looked at to tell files apart. */
+constexpr std::ptrdiff_t MOST_PARTS = 64;
+
+/** \brief The last so many parts of a path. */
+std::string
+endOf(const fs::path& path, std::ptrdiff_t parts)
+{
+  auto from = path.end();
+  while (parts-- > 0 && from != path.begin())
+    --from;
+  fs::path end;
+  for (; from != path.end(); ++from)
+    end /= *from;
+  return end.string();
+}
+
+/** \brief Names of files, with as many of their folders as it takes to tell them apart. */
 std::vector<ScanFile>
 named(const std::vector<std::string>& paths)
 {
-  std::map<std::string, int> count;
-  for (const std::string& path : paths)
-    ++count[fs::path(path).filename().string()];
-  std::vector<ScanFile> files;
-  for (const std::string& path : paths) {
-    const std::string name = fs::path(path).filename().string();
-    files.push_back(
-        {count[name] == 1 ? name : fs::path(path).lexically_normal().string(), path});
+  std::vector<ScanFile> files(paths.size());
+  std::map<std::string, std::vector<std::size_t>> of_name;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    files[i].path = paths[i];
+    of_name[fs::path(paths[i]).filename().string()].push_back(i);
+  }
+  for (const auto& [name, same] : of_name) {
+    std::set<std::string> names;
+    for (std::ptrdiff_t parts = 1; parts <= MOST_PARTS && names.size() < same.size();
+         ++parts) {
+      names.clear();
+      for (const std::size_t i : same) {
+        files[i].name = endOf(fs::path(paths[i]).lexically_normal(), parts);
+        names.insert(files[i].name);
+      }
+    }
+    // Links can make two files of what reads as one.
+    if (names.size() < same.size())
+      for (const std::size_t i : same)
+        files[i].name = paths[i];
   }
   return files;
 }

@@ -10,7 +10,7 @@ namespace pcl_flashreg::map {
 
 /** \brief A scan that the command line names. */
 struct ScanFile {
-  /** \brief Of the file; with its folders, where two files have the same. */
+  /** \brief Of the file; with as many of its folders as it takes to tell it from others. */
   std::string name;
   std::string path;
 };

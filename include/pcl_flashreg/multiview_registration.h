@@ -113,7 +113,8 @@ struct MultiviewOptions {
    * descriptors; >= 1. */
   std::size_t alike = 12;
   /** \brief Up to so many scans, all pairs of scans that the map does not tie to each other are
-   * tried after that; of more, some rounds of as many again. */
+   * tried after that; of more, as many again, and of those that are alone four times as
+   * many. */
   std::size_t all_pairs_up_to = 150;
   /** \brief Whether the scans are in the order in which they were made: each is tried with the
    * next few in any case. */
@@ -140,7 +141,11 @@ public:
   /** \brief Hands out a scan by its number; called by several threads at a time. Scans need
    * not be in memory, but each call for one has to return the same. */
   using ScanSource = std::function<Scan(std::size_t)>;
+  /** \brief Numbers of a target and a source. */
   using ScanPair = std::pair<std::size_t, std::size_t>;
+  /** \brief Registers pairs of scans, as relate() does, or knows from elsewhere what they say
+   * of each other: a file, other processes. What it throws ends the registration. */
+  using Relate = std::function<std::vector<ScanRelation>(const std::vector<ScanPair>&)>;
 
   /** \param[in] num_threads 0 takes as many as there are processors
    * \throws BackendError, std::invalid_argument as PairRegistration */
@@ -154,25 +159,6 @@ public:
   /** \brief All pairs of so many scans: targets and sources. */
   static std::vector<ScanPair>
   allPairs(std::size_t scans);
-
-  /** \brief The pairs to begin with: each scan with those that are most like it.
-   * \param[in] count number of scans
-   * \throws std::invalid_argument if an option is out of range */
-  std::vector<ScanPair>
-  choosePairs(std::size_t count,
-              const ScanSource& scans,
-              const MultiviewOptions& options = {});
-
-  /** \brief The pairs to go on with, of scans that the map does not tie to each other: those that
-   * have not been tried; once there are none, those that promised something, the other way
-   * round. None where there is nothing left to do.
-   * \param[in] tried all so far
-   * \param[in] map made from them */
-  std::vector<ScanPair>
-  choosePairs(const ScanSource& scans,
-              const std::vector<ScanRelation>& tried,
-              const MultiviewResult& map,
-              const MultiviewOptions& options = {});
 
   /** \brief Registers pairs, one a thread.
    * \return in the order of the pairs
@@ -193,7 +179,19 @@ public:
         const std::vector<ScanRelation>& relations,
         const MultiviewOptions& options = {});
 
-  /** \brief All of it. */
+  /** \brief All of it: in rounds, each of pairs that the map so far does not tie to each
+   * other.
+   * \param[in] count number of scans
+   * \param[in] relate called once a round, by the thread that calls this
+   * \throws std::invalid_argument if an option is out of range, or as place() for what relate
+   * returns */
+  MultiviewResult
+  align(std::size_t count,
+        const ScanSource& scans,
+        const Relate& relate,
+        const MultiviewOptions& options = {});
+
+  /** \brief All of it, with relate(). */
   MultiviewResult
   align(const std::vector<Scan>& scans, const MultiviewOptions& options = {});
 

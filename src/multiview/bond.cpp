@@ -64,7 +64,7 @@ count(Bond& bond, const BondEnds& ends, const MapScans& scans, const MapPoses& p
   std::vector<bool> is_moving(poses.size());
   for (const std::size_t scan : ends.moving)
     is_moving[scan] = true;
-  const double spacing = scans(ends.moving.front())->spacing;
+  const double spacing = scans[ends.moving.front()].spacing;
   Placements& placements = bond.placements;
   placements = countVotes(bond.pairs, is_moving, poses, spacing, PLACEMENTS);
   for (Placement& placement : placements.best)
@@ -99,7 +99,7 @@ conclude(Bond& bond, const BondEnds& ends, const MapScans& scans, const MapPoses
   });
   // On the surfaces some turn out to be the same.
   const std::size_t some = ends.moving.front();
-  const double spacing = scans(some)->spacing;
+  const double spacing = scans[some].spacing;
   std::vector<Placement>& best = bond.placements.best;
   best.clear();
   for (const Placement& placement : judged)

@@ -249,7 +249,7 @@ confidenceOf(std::size_t scan,
       continue;
     const double probability = 1 / (1 + std::exp(-placing->odds));
     const bool stays =
-        own && samePlace(placing->place, poses[scan], scans(scan)->spacing);
+        own && samePlace(placing->place, poses[scan], scans[scan].spacing);
     here = here * (1 - probability) + (stays ? nowhere * probability : 0);
     elsewhere = elsewhere * (1 - probability) + (stays ? 0 : nowhere * probability);
     nowhere *= 1 - probability;
@@ -276,7 +276,7 @@ tiedParts(const std::vector<std::size_t>& group,
     if (part_of.count(pair.target) > 0 && part_of.count(pair.source) > 0 &&
         samePlace(poses[pair.target] * pair.votes.front().T_target_source,
                   poses[pair.source],
-                  scans(pair.source)->spacing)) {
+                  scans[pair.source].spacing)) {
       const std::size_t a = rootOf(pair.target), b = rootOf(pair.source);
       part_of[std::max(a, b)] = std::min(a, b);
     }
@@ -326,31 +326,26 @@ confidencesOf(const MapScans& scans,
   return confidences;
 }
 
-std::size_t
+void
 releaseDoubtful(const MapScans& scans,
                 const std::vector<PairVotes>& pairs,
+                const std::vector<double>& confidences,
                 double least_confidence,
-                Grouping& map,
-                ThreadPool& pool)
+                Grouping& map)
 {
-  const std::vector<double> confidences = confidencesOf(scans, pairs, map, pool);
-  std::size_t released = 0;
   std::vector<std::vector<std::size_t>> groups;
   for (const std::vector<std::size_t>& group : map.groups) {
     std::vector<std::size_t> kept;
     for (const std::size_t scan : group)
       if (group.size() == 1 || confidences[scan] >= least_confidence)
         kept.push_back(scan);
-      else {
+      else
         groups.push_back({scan});
-        ++released;
-      }
     for (std::vector<std::size_t>& part : tiedParts(kept, pairs, scans, map.poses))
       groups.push_back(std::move(part));
   }
   std::sort(groups.begin(), groups.end());
   map.groups = std::move(groups);
-  return released;
 }
 
 } // namespace pcl_flashreg

@@ -38,13 +38,13 @@ confidencesOf(const MapScans& scans,
 
 /** \brief Takes scans out of their groups that are not sure of their places any more; what only
  * they tied together falls apart.
- * \param[in] least_confidence of a scan that stays
- * \return how many */
-std::size_t
+ * \param[in] confidences of the scans in this map
+ * \param[in] least_confidence of a scan that stays */
+void
 releaseDoubtful(const MapScans& scans,
                 const std::vector<PairVotes>& pairs,
+                const std::vector<double>& confidences,
                 double least_confidence,
-                Grouping& map,
-                ThreadPool& pool);
+                Grouping& map);
 
 } // namespace pcl_flashreg

@@ -51,10 +51,10 @@ JointJudgement::meetings(const std::vector<std::size_t>& fixed,
   std::vector<Near> near;
   for (const std::size_t j : moving) {
     const Eigen::Vector3d place = T_fixed_moving * poses_[j].translation();
-    const double radius = scans_(j)->radius;
+    const double radius = scans_[j].radius;
     for (const std::size_t i : fixed) {
       const double apart = (poses_[i].translation() - place).norm();
-      if (apart < radius + scans_(i)->radius)
+      if (apart < radius + scans_[i].radius)
         near.push_back({apart, {i, j}});
     }
   }
@@ -75,11 +75,12 @@ JointJudgement::agreement(const std::vector<Meeting>& meetings,
   JointAgreement sum;
   double points = 0;
   for (const Meeting& meeting : meetings) {
-    const auto source = scans_(meeting.moving), target = scans_(meeting.fixed);
-    const SurfacePair pair = cloudsOf(*source, *target);
+    const TwoClouds clouds = scans_.clouds(meeting.moving, meeting.fixed);
+    const SurfacePair pair = clouds.pair();
     const Look look(pair, POINTS, TOLERANCE, MARGIN);
     const CloudAgreement agreement = look(toPose(between(meeting, T_fixed_moving)));
-    const auto both = static_cast<double>(source->size() + target->size());
+    const auto both = static_cast<double>(scans_[meeting.moving].points +
+                                          scans_[meeting.fixed].points);
     sum.matched += both * agreement.matched;
     sum.contradicted += both * agreement.contradicted;
     sum.seeing = sum.seeing || pair.seeing();
@@ -98,9 +99,9 @@ JointJudgement::addContacts(const Meeting& meeting,
                             const Eigen::Vector3d& origin,
                             std::vector<Contact>& contacts) const
 {
-  const auto source = scans_(meeting.moving), target = scans_(meeting.fixed);
+  const TwoClouds clouds = scans_.clouds(meeting.moving, meeting.fixed);
   const std::size_t first = contacts.size();
-  findContacts(cloudsOf(*source, *target),
+  findContacts(clouds.pair(),
                toRigidFloat(toPose(between(meeting, T_fixed_moving))),
                reach,
                contacts);
@@ -132,7 +133,7 @@ JointJudgement::moveOntoFixed(const std::vector<Meeting>& meetings,
         reach.points, std::max(LEAST_POINTS_MOVED, POINTS_MOVED / meetings.size()));
     for (const Meeting& meeting : meetings)
       addContacts(meeting, T, reach, origin, contacts);
-    const auto spacing = static_cast<float>(scans_(meetings.front().moving)->spacing);
+    const auto spacing = static_cast<float>(scans_[meetings.front().moving].spacing);
     const std::optional<PlaneStep> step = stepOntoPlanes(contacts, spacing);
     if (!step)
       break;

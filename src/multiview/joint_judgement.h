@@ -4,7 +4,7 @@
 #pragma once
 
 #include "judgement/cpu/contacts.h"
-#include "multiview/map_scan.h"
+#include "multiview/map_scans.h"
 
 #include <vector>
 

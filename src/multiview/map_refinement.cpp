@@ -29,9 +29,9 @@ constexpr double MOST_CONTRADICTED = 0.3;
 constexpr double UNVOUCHED = 0.1;
 
 CloudAgreement
-agreementOf(const MapScan& source, const MapScan& target, const Eigen::Isometry3d& T)
+agreementOf(const SurfacePair& clouds, const Eigen::Isometry3d& T)
 {
-  return Look(cloudsOf(source, target), POINTS, TOLERANCE, MARGIN)(toPose(T));
+  return Look(clouds, POINTS, TOLERANCE, MARGIN)(toPose(T));
 }
 
 /** \brief Optimizes those poses of a map that edges are about. */
@@ -66,7 +66,7 @@ edgeBetween(const MapScans& scans,
             const Eigen::Isometry3d& T_target_source)
 {
   std::optional<PoseConstraint> constraint =
-      surfaceConstraint(*scans(target), *scans(source), T_target_source);
+      surfaceConstraint(scans.clouds(source, target).pair(), T_target_source);
   if (!constraint)
     return std::nullopt;
   constraint->target = target;
@@ -82,7 +82,7 @@ agreeing(const MapScans& scans, const PairVotes& pair, const MapPoses& poses)
 {
   const Eigen::Isometry3d by_map =
       poses[pair.target].inverse(Eigen::Isometry) * poses[pair.source];
-  const double spacing = scans(pair.target)->spacing;
+  const double spacing = scans[pair.target].spacing;
   for (const Vote& vote : pair.votes) {
     if (!samePlace(by_map, vote.T_target_source, spacing))
       continue;
@@ -106,12 +106,12 @@ touching(const MapScans& scans,
 {
   const Eigen::Isometry3d by_map =
       poses[target].inverse(Eigen::Isometry) * poses[source];
-  const auto to = scans(target), from = scans(source);
-  if (agreementOf(*from, *to, by_map).matched < LEAST_MATCHED / 2)
+  const TwoClouds two = scans.clouds(source, target);
+  const SurfacePair clouds = two.pair();
+  if (agreementOf(clouds, by_map).matched < LEAST_MATCHED / 2)
     return std::nullopt;
-  const SurfacePair clouds = cloudsOf(*from, *to);
   const Eigen::Isometry3d moved = toIsometry(moveOntoTarget(clouds, toPose(by_map)));
-  const CloudAgreement agreement = agreementOf(*from, *to, moved);
+  const CloudAgreement agreement = agreementOf(clouds, moved);
   if (agreement.matched < LEAST_MATCHED ||
       agreement.contradicted > MOST_CONTRADICTED * agreement.matched ||
       !samePlace(by_map, moved, clouds.spacing))
@@ -133,7 +133,7 @@ pairsInReach(const MapScans& scans,
     for (std::size_t b = a + 1; b < group.size(); ++b) {
       const Eigen::Vector3d apart =
           poses[group[a]].translation() - poses[group[b]].translation();
-      if (apart.norm() < scans(group[a])->radius + scans(group[b])->radius)
+      if (apart.norm() < scans[group[a]].radius + scans[group[b]].radius)
         near.emplace_back(group[a], group[b]);
     }
   return near;
@@ -198,9 +198,9 @@ askClouds(const MapScans& scans, std::vector<SurfaceEdge>& edges, ThreadPool& po
 {
   pool.forEach(edges.size(), [&](std::size_t i, std::size_t) {
     const PoseConstraint& constraint = edges[i].constraint;
-    edges[i].agreement = agreementOf(*scans(constraint.source),
-                                     *scans(constraint.target),
-                                     constraint.T_target_source);
+    edges[i].agreement =
+        agreementOf(scans.clouds(constraint.source, constraint.target).pair(),
+                    constraint.T_target_source);
   });
 }
 

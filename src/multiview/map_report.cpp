@@ -56,8 +56,8 @@ reportOf(const Grouping& map,
       result.scans[scan].confidence = confidences[scan];
       result.scans[scan].T_group_scan =
           betweenFrames(map.poses[first].inverse(Eigen::Isometry) * map.poses[scan],
-                        *scans(first),
-                        *scans(scan));
+                        scans[first],
+                        scans[scan]);
     }
   }
   std::map<ScanPair, MapEdge> all;
@@ -65,7 +65,7 @@ reportOf(const Grouping& map,
     MapEdge& edge = all[{pair.target, pair.source}];
     const Vote& best = pair.votes.front();
     edge.T_target_source =
-        betweenFrames(best.T_target_source, *scans(pair.target), *scans(pair.source));
+        betweenFrames(best.T_target_source, scans[pair.target], scans[pair.source]);
     edge.pair_confidence = best.probability;
     edge.fate = result.scans[pair.target].group == result.scans[pair.source].group
                     ? EdgeFate::Disagrees
@@ -82,9 +82,9 @@ reportOf(const Grouping& map,
     edge.agreement = found.agreement;
     edge.pair_confidence = found.probability;
     edge.confidence = std::min(confidences[target], confidences[source]);
-    edge.information = informationOf(found.constraint, scans(target)->middle);
+    edge.information = informationOf(found.constraint, scans[target].middle);
     edge.T_target_source =
-        betweenFrames(found.constraint.T_target_source, *scans(target), *scans(source));
+        betweenFrames(found.constraint.T_target_source, scans[target], scans[source]);
     edge.rotation_residual = off.head<3>().norm();
     edge.translation_residual = off.tail<3>().norm();
     ++result.scans[target].edges;

@@ -3,7 +3,6 @@
 
 #include "multiview/map_scan.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pcl_flashreg {
@@ -13,33 +12,7 @@ namespace {
  * by no more than so many spacings: fragments bend. */
 constexpr double SAME_ANGLE = 0.1745, SAME_WAY = 6;
 
-Eigen::Vector3d
-middleOf(const Scan& scan)
-{
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3d point =
-        Eigen::Map<const Eigen::Vector3f>(scan.points() + 3 * i).cast<double>();
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return scan.empty() ? Eigen::Vector3d::Zero().eval() : (0.5 * (low + high)).eval();
-}
-
 } // namespace
-
-MapScan::MapScan(const Scan& scan) : spacing(scan.spacing())
-{
-  const Eigen::Vector3d origin = middleOf(scan);
-  middle = origin + scan.shift();
-  CloudView<float> view{scan.points(), scan.normals(), scan.size(), std::nullopt};
-  if (scan.viewpoint())
-    view.viewpoint = *scan.viewpoint() - scan.shift();
-  surface.build(
-      view, {origin.x(), origin.y(), origin.z()}, static_cast<float>(spacing));
-  for (const Eigen::Vector3f& point : surface.points)
-    radius = std::max(radius, static_cast<double>(point.norm()));
-}
 
 Eigen::Isometry3d
 betweenMiddles(const RigidTransform& T, const MapScan& target, const MapScan& source)
@@ -56,14 +29,6 @@ betweenFrames(const Eigen::Isometry3d& T, const MapScan& target, const MapScan& 
   result.rotation = T.linear();
   result.translation = T.translation() + target.middle - T.linear() * source.middle;
   return result;
-}
-
-SurfacePair
-cloudsOf(const MapScan& source, const MapScan& target)
-{
-  return {source.surface,
-          target.surface,
-          static_cast<float>(std::max(source.spacing, target.spacing))};
 }
 
 bool

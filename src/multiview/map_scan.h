@@ -3,42 +3,28 @@
 
 #pragma once
 
-#include "judgement/cpu/agreement.h"
 #include "math/isometry.h"
 
 #include <pcl_flashreg/result.h>
-#include <pcl_flashreg/scan.h>
 
 #include <Eigen/Geometry>
 
 #include <cstddef>
-#include <functional>
-#include <memory>
 #include <vector>
 
 namespace pcl_flashreg {
 
-/** \brief A scan as the map sees it: a surface about its own middle. Poses within the map are
- * of this middle, so that they are turns of the scan and places of its middle. */
+/** \brief What the map always knows of a scan. Poses within the map are of the scan's middle,
+ * so that they are turns of the scan and places of its middle. */
 struct MapScan {
-  explicit MapScan(const Scan& scan);
-
-  std::size_t
-  size() const
-  {
-    return surface.points.size();
-  }
-
-  Surface surface;
+  /** \brief Of its surface. */
+  std::size_t points = 0;
   /** \brief The middle, in the frame of the scan. */
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   /** \brief Of a sphere about the middle that holds all points. */
   double radius = 0;
   double spacing = 0;
 };
-
-/** \brief Where map scans come from, by their numbers. */
-using MapScans = std::function<std::shared_ptr<const MapScan>(std::size_t)>;
 
 /** \brief A pose of each scan's middle, in the frame of its group. */
 using MapPoses = std::vector<Eigen::Isometry3d>;
@@ -54,10 +40,6 @@ RigidTransform
 betweenFrames(const Eigen::Isometry3d& T_target_source,
               const MapScan& target,
               const MapScan& source);
-
-/** \brief For the judges; both scans are to outlive it. */
-SurfacePair
-cloudsOf(const MapScan& source, const MapScan& target);
 
 /** \brief Whether two poses of a scan are the same but for noise and drift. */
 bool

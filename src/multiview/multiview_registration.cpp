@@ -5,17 +5,14 @@
 
 #include <pcl_flashreg/multiview_registration.h>
 
-#include "multiview/map_report.h"
+#include "multiview/map_builder.h"
 #include "multiview/pair_choice.h"
-#include "multiview/map_refinement.h"
-#include "multiview/grouping.h"
 #include "multiview/relation.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
-#include <algorithm>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -32,70 +29,6 @@ checkOptions(const MultiviewOptions& options)
   if (options.alike == 0)
     throw std::invalid_argument("alike is 0, but must be >= 1");
 }
-
-void
-checkRelations(std::size_t count, const std::vector<ScanRelation>& relations)
-{
-  std::set<std::pair<std::size_t, std::size_t>> seen;
-  for (const ScanRelation& relation : relations) {
-    const std::string pair =
-        std::to_string(relation.target) + " and " + std::to_string(relation.source);
-    if (relation.target == relation.source ||
-        std::max(relation.target, relation.source) >= count)
-      throw std::invalid_argument("relation between scans " + pair + ": there are " +
-                                  std::to_string(count) + ", and a pair has two");
-    if (!seen.insert({relation.target, relation.source}).second)
-      throw std::invalid_argument("two relations between scans " + pair);
-  }
-}
-
-/** \brief Every scan by itself. */
-Grouping
-apart(std::size_t count)
-{
-  Grouping grouping;
-  grouping.poses.assign(count, Eigen::Isometry3d::Identity());
-  for (std::size_t i = 0; i < count; ++i)
-    grouping.groups.push_back({i});
-  return grouping;
-}
-
-/** \brief Scans whose sensor was elsewhere than they say: pairs that are certain, most of
- * them, are so in spite of the viewpoints. Where both scans of a pair may be to blame, it is
- * the one that more pairs blame. */
-std::vector<bool>
-falseViewpoints(std::size_t count, const std::vector<ScanRelation>& relations)
-{
-  constexpr double CERTAIN = 0.6, MOST = 0.5;
-  std::vector<double> all(count), overruled(count);
-  for (const ScanRelation& relation : relations)
-    if (!relation.poses.empty() && relation.poses.front().probability > CERTAIN)
-      for (const std::size_t scan : {relation.target, relation.source}) {
-        ++all[scan];
-        overruled[scan] += relation.overruled_viewpoints ? 1 : 0;
-      }
-  std::vector<bool> result(count);
-  for (std::size_t i = 0; i < count; ++i)
-    result[i] = overruled[i] > MOST * all[i];
-  return result;
-}
-
-/** \brief Pairs of scans of a group. */
-std::vector<const PairVotes*>
-within(const std::vector<std::size_t>& group, const std::vector<PairVotes>& pairs)
-{
-  std::vector<const PairVotes*> result;
-  for (const PairVotes& pair : pairs)
-    if (std::binary_search(group.begin(), group.end(), pair.target) &&
-        std::binary_search(group.begin(), group.end(), pair.source))
-      result.push_back(&pair);
-  return result;
-}
-
-/** \brief Times that scans are taken out which the finished map does not confirm, and with what
- * confidence they leave to be placed anew. */
-constexpr int RECONSIDERED = 3;
-constexpr double LEAST_TO_STAY = 0.5;
 
 } // namespace
 
@@ -133,28 +66,6 @@ MultiviewRegistration::allPairs(std::size_t scans)
   return pairs;
 }
 
-std::vector<MultiviewRegistration::ScanPair>
-MultiviewRegistration::choosePairs(std::size_t count,
-                                   const ScanSource& scans,
-                                   const MultiviewOptions& options)
-{
-  checkOptions(options);
-  return firstPairs(Likeness(count, scans, impl_->pool), count, options);
-}
-
-std::vector<MultiviewRegistration::ScanPair>
-MultiviewRegistration::choosePairs(const ScanSource& scans,
-                                   const std::vector<ScanRelation>& tried,
-                                   const MultiviewResult& map,
-                                   const MultiviewOptions& options)
-{
-  checkOptions(options);
-  if (map.groups.size() < 2)
-    return {};
-  const Likeness likeness(map.scans.size(), scans, impl_->pool);
-  return untiedPairs(likeness, tried, map, options);
-}
-
 std::vector<ScanRelation>
 MultiviewRegistration::relate(const ScanSource& scans,
                               const std::vector<ScanPair>& pairs,
@@ -183,52 +94,56 @@ MultiviewRegistration::relate(const ScanSource& scans,
 
 MultiviewResult
 MultiviewRegistration::place(std::size_t count,
-                             const ScanSource& source,
+                             const ScanSource& scans,
                              const std::vector<ScanRelation>& relations,
                              const MultiviewOptions& options)
 {
   checkOptions(options);
-  checkRelations(count, relations);
+  const detail::Stopwatch watch;
+  MapBuilder builder(count, scans, options.min_confidence, impl_->pool);
+  builder.add(relations);
+  builder.group();
+  const double grouping = watch.milliseconds();
+  MultiviewResult result = builder.finish();
+  result.timings.grouping = grouping;
+  result.timings.total = watch.milliseconds();
+  result.timings.refinement = result.timings.total - grouping;
+  return result;
+}
+
+MultiviewResult
+MultiviewRegistration::align(std::size_t count,
+                             const ScanSource& scans,
+                             const Relate& relate,
+                             const MultiviewOptions& options)
+{
+  checkOptions(options);
   const detail::Stopwatch total;
-  MultiviewTimings timings;
-  std::vector<std::shared_ptr<const MapScan>> surfaces(count);
-  const std::vector<bool> blind = falseViewpoints(count, relations);
-  impl_->pool.forEach(count, [&](std::size_t i, std::size_t) {
-    const Scan scan = source(i);
-    surfaces[i] = std::make_shared<MapScan>(blind[i] || scan.viewpointSource() ==
-                                                            ViewpointSource::Points
-                                                ? scan.withoutViewpoint()
-                                                : scan);
+  MultiviewTimings spent;
+  const auto timed = [](double& spent_on_it, const auto& work) {
+    const detail::Stopwatch watch;
+    work();
+    spent_on_it += watch.milliseconds();
+  };
+  std::optional<PairChoice> choice;
+  std::optional<MapBuilder> builder;
+  std::vector<ScanPair> pairs;
+  timed(spent.relations, [&] {
+    choice.emplace(count, scans, options, impl_->pool);
+    pairs = choice->first();
   });
-  const MapScans scans = [&](std::size_t i) { return surfaces[i]; };
-  const std::vector<PairVotes> pairs = votesOf(relations, scans);
-  Grouping map =
-      joinGroups(scans, pairs, apart(count), options.min_confidence, impl_->pool);
-  for (int round = 0; round < RECONSIDERED; ++round) {
-    for (const std::vector<std::size_t>& group : map.groups)
-      refineMap(scans, within(group, pairs), group, map.poses, impl_->pool);
-    const std::size_t released =
-        releaseDoubtful(scans, pairs, LEAST_TO_STAY, map, impl_->pool);
-    const std::size_t groups = map.groups.size();
-    map = joinGroups(scans, pairs, std::move(map), options.min_confidence, impl_->pool);
-    if (released == 0 && map.groups.size() == groups)
-      break;
-  }
-  // Who is in may be in twice the doubt of who comes in.
-  const double least_to_remain = 1 - 2 * (1 - options.min_confidence);
-  releaseDoubtful(scans, pairs, least_to_remain, map, impl_->pool);
-  timings.grouping = total.milliseconds();
-  std::vector<SurfaceEdge> edges;
-  for (const std::vector<std::size_t>& group : map.groups)
-    for (SurfaceEdge& edge :
-         refineMap(scans, within(group, pairs), group, map.poses, impl_->pool))
-      edges.push_back(std::move(edge));
-  askClouds(scans, edges, impl_->pool);
-  timings.refinement = total.milliseconds() - timings.grouping;
-  MultiviewResult result =
-      reportOf(map, edges, pairs, confidencesOf(scans, pairs, map, impl_->pool), scans);
-  timings.total = total.milliseconds();
-  result.timings = timings;
+  timed(spent.grouping,
+        [&] { builder.emplace(count, scans, options.min_confidence, impl_->pool); });
+  do {
+    timed(spent.relations, [&] { builder->add(relate(pairs)); });
+    timed(spent.grouping, [&] { builder->group(); });
+    timed(spent.relations,
+          [&] { pairs = choice->next(builder->relations(), builder->groups()); });
+  } while (!pairs.empty());
+  MultiviewResult result;
+  timed(spent.refinement, [&] { result = builder->finish(); });
+  spent.total = total.milliseconds();
+  result.timings = spent;
   return result;
 }
 
@@ -236,25 +151,14 @@ MultiviewResult
 MultiviewRegistration::align(const std::vector<Scan>& scans,
                              const MultiviewOptions& options)
 {
-  const detail::Stopwatch watch;
   const ScanSource source = [&](std::size_t i) { return scans[i]; };
-  std::vector<ScanRelation> relations;
-  MultiviewResult result;
-  MultiviewTimings spent;
-  std::vector<ScanPair> pairs = choosePairs(scans.size(), source, options);
-  do {
-    const detail::Stopwatch relating;
-    for (ScanRelation& relation : relate(source, pairs, options))
-      relations.push_back(std::move(relation));
-    spent.relations += relating.milliseconds();
-    result = place(scans.size(), source, relations, options);
-    spent.grouping += result.timings.grouping;
-    spent.refinement += result.timings.refinement;
-    pairs = choosePairs(source, relations, result, options);
-  } while (!pairs.empty());
-  spent.total = watch.milliseconds();
-  result.timings = spent;
-  return result;
+  return align(
+      scans.size(),
+      source,
+      [&](const std::vector<ScanPair>& pairs) {
+        return relate(source, pairs, options);
+      },
+      options);
 }
 
 std::size_t

@@ -14,13 +14,17 @@ namespace {
 constexpr std::size_t NEIGHBOURS = 3;
 
 /** \brief Of more scans than can all be tried with each other: that often as many as
- * MultiviewOptions::alike are looked for, for scans of a group and for those that are alone. */
+ * MultiviewOptions::alike in all, for scans of a group and for those that are alone. */
 constexpr std::size_t REPEATED = 2, REPEATED_ALONE = 4;
+
+/** \brief Rounds after the first, of more scans than can all be tried: each one's grouping takes
+ * as long as thousands of pairs, and those after it would have a few dozen. */
+constexpr int ROUNDS_OF_MANY = 2;
 
 /** \brief The probability of a pair's best pose that is worth a second try. */
 constexpr double PROMISING = 0.05;
 
-ScanPairs
+PairChoice::ScanPairs
 listed(const std::set<MultiviewRegistration::ScanPair>& pairs)
 {
   return {pairs.begin(), pairs.end()};
@@ -28,47 +32,58 @@ listed(const std::set<MultiviewRegistration::ScanPair>& pairs)
 
 } // namespace
 
-ScanPairs
-firstPairs(const Likeness& likeness, std::size_t count, const MultiviewOptions& options)
+PairChoice::PairChoice(std::size_t count,
+                       const MultiviewRegistration::ScanSource& scans,
+                       const MultiviewOptions& options,
+                       ThreadPool& pool)
+    : count_(count), options_(options), likeness_(count, scans, pool)
+{
+}
+
+PairChoice::ScanPairs
+PairChoice::first() const
 {
   std::set<MultiviewRegistration::ScanPair> pairs;
-  for (std::size_t scan = 0; scan < count; ++scan) {
-    std::vector<std::size_t> others = likeness.ranked(scan);
-    others.resize(std::min(others.size(), options.alike));
+  for (std::size_t scan = 0; scan < count_; ++scan) {
+    std::vector<std::size_t> others = likeness_.ranked(scan);
+    others.resize(std::min(others.size(), options_.alike));
     for (const std::size_t other : others)
       pairs.insert(std::minmax(scan, other));
     for (std::size_t next = scan + 1;
-         options.sequence && next < std::min(count, scan + 1 + NEIGHBOURS);
+         options_.sequence && next < std::min(count_, scan + 1 + NEIGHBOURS);
          ++next)
       pairs.insert({scan, next});
   }
   return listed(pairs);
 }
 
-ScanPairs
-untiedPairs(const Likeness& likeness,
-            const std::vector<ScanRelation>& tried,
-            const MultiviewResult& map,
-            const MultiviewOptions& options)
+PairChoice::ScanPairs
+PairChoice::next(const std::vector<ScanRelation>& tried, const Groups& groups)
 {
+  ++rounds_;
+  const bool few = count_ <= options_.all_pairs_up_to;
+  if (!few && rounds_ > ROUNDS_OF_MANY)
+    return {};
+  std::vector<std::size_t> group_of(count_);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const std::size_t scan : groups[g])
+      group_of[scan] = g;
   const auto tied = [&](const MultiviewRegistration::ScanPair& pair) {
-    return map.scans[pair.first].group == map.scans[pair.second].group;
+    return group_of[pair.first] == group_of[pair.second];
   };
-  const std::size_t count = map.scans.size();
   std::set<MultiviewRegistration::ScanPair> known, pairs;
-  std::vector<std::size_t> tries(count);
+  std::vector<std::size_t> tries(count_);
   for (const ScanRelation& relation : tried) {
     known.insert({relation.target, relation.source});
     ++tries[relation.target];
     ++tries[relation.source];
   }
-  const bool few = count <= options.all_pairs_up_to;
-  for (std::size_t scan = 0; scan < count; ++scan) {
-    std::size_t left = few ? count : options.alike;
-    const bool alone = map.groups[map.scans[scan].group].size() == 1;
-    if (!few && tries[scan] >= (alone ? REPEATED_ALONE : REPEATED) * options.alike)
-      continue;
-    for (const std::size_t other : likeness.ranked(scan)) {
+  for (std::size_t scan = 0; scan < count_; ++scan) {
+    const bool alone = groups[group_of[scan]].size() == 1;
+    const std::size_t most = (alone ? REPEATED_ALONE : REPEATED) * options_.alike;
+    // Other scans may have asked for more pairs than that.
+    std::size_t left = few ? count_ : most - std::min(most, tries[scan]);
+    for (const std::size_t other : likeness_.ranked(scan)) {
       const MultiviewRegistration::ScanPair pair = std::minmax(scan, other);
       if (left == 0)
         break;
@@ -78,7 +93,8 @@ untiedPairs(const Likeness& likeness,
       --left;
     }
   }
-  if (!pairs.empty())
+  const bool last = !few && rounds_ == ROUNDS_OF_MANY;
+  if (!pairs.empty() && !last)
     return listed(pairs);
   for (const ScanRelation& relation : tried) {
     const MultiviewRegistration::ScanPair other_way(relation.source, relation.target);

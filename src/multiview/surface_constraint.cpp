@@ -4,6 +4,7 @@
 #include "multiview/surface_constraint.h"
 
 #include "judgement/cpu/contacts.h"
+#include "math/isometry.h"
 
 namespace pcl_flashreg {
 namespace {
@@ -18,11 +19,8 @@ constexpr double STIFFNESS = 0.003;
 } // namespace
 
 std::optional<PoseConstraint>
-surfaceConstraint(const MapScan& target,
-                  const MapScan& source,
-                  const Eigen::Isometry3d& T_target_source)
+surfaceConstraint(const SurfacePair& clouds, const Eigen::Isometry3d& T_target_source)
 {
-  const SurfacePair clouds = cloudsOf(source, target);
   const std::vector<Contact> contacts =
       contactsOfBoth(clouds, toRigidFloat(toPose(T_target_source)), TOUCHING);
   if (contacts.size() < LEAST_CONTACTS)

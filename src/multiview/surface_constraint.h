@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "multiview/map_scan.h"
+#include "judgement/cpu/agreement.h"
 #include "multiview/pose_graph.h"
 
 #include <optional>
@@ -15,8 +15,6 @@ namespace pcl_flashreg {
  * \param[in] T_target_source between middles, on the surface
  * \return nothing if they don't touch enough to tell */
 std::optional<PoseConstraint>
-surfaceConstraint(const MapScan& target,
-                  const MapScan& source,
-                  const Eigen::Isometry3d& T_target_source);
+surfaceConstraint(const SurfacePair& clouds, const Eigen::Isometry3d& T_target_source);
 
 } // namespace pcl_flashreg

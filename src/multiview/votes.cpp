@@ -119,12 +119,12 @@ weigh(const Eigen::Isometry3d& T_fixed_moving,
 /** \brief The poses that a pair was found to have, as those of the pair with the smaller number
  * as target. */
 std::vector<Vote>
-votesOf(const ScanRelation& relation, const MapScans& scans)
+votesOf(const ScanRelation& relation, const std::vector<MapScan>& scans)
 {
   std::vector<Vote> votes;
-  const auto target = scans(relation.target), source = scans(relation.source);
+  const MapScan &target = scans[relation.target], &source = scans[relation.source];
   for (const RelativePose& pose : relation.poses) {
-    const Eigen::Isometry3d T = betweenMiddles(pose.T_target_source, *target, *source);
+    const Eigen::Isometry3d T = betweenMiddles(pose.T_target_source, target, source);
     votes.push_back(
         {pose.probability,
          relation.target < relation.source ? T : T.inverse(Eigen::Isometry)});
@@ -158,7 +158,7 @@ bothWays(std::vector<Vote> votes, const std::vector<Vote>& others, double spacin
 } // namespace
 
 std::vector<PairVotes>
-votesOf(const std::vector<ScanRelation>& relations, const MapScans& scans)
+votesOf(const std::vector<ScanRelation>& relations, const std::vector<MapScan>& scans)
 {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Vote>> forth, back;
   for (const ScanRelation& relation : relations)
@@ -172,7 +172,7 @@ votesOf(const std::vector<ScanRelation>& relations, const MapScans& scans)
       forth.emplace(pair, std::move(votes));
     else
       other->second =
-          bothWays(std::move(other->second), votes, scans(pair.second)->spacing);
+          bothWays(std::move(other->second), votes, scans[pair.second].spacing);
   }
   std::vector<PairVotes> result;
   for (auto& [pair, votes] : forth)

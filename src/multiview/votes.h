@@ -32,7 +32,7 @@ struct PairVotes {
 /** \brief What relations say, by target and source, the target having the smaller number. Of a
  * pair that was asked both ways each counts by half. */
 std::vector<PairVotes>
-votesOf(const std::vector<ScanRelation>& relations, const MapScans& scans);
+votesOf(const std::vector<ScanRelation>& relations, const std::vector<MapScan>& scans);
 
 /** \brief A way in which two groups may lie to each other. */
 struct Placement {

@@ -48,6 +48,13 @@ public:
     return limit > 0 && ray.squaredNorm() < limit * limit;
   }
 
+  /** \brief Of memory. */
+  std::size_t
+  bytes() const
+  {
+    return nearest_.capacity() * sizeof(float);
+  }
+
 private:
   std::size_t
   pixelOf(const Eigen::Vector3f& ray) const;

@@ -34,6 +34,14 @@ public:
     return cells_[blocks_[slotOf(keyOf(cell))].first_cell + offsetOf(cell)];
   }
 
+  /** \brief Of memory. */
+  std::size_t
+  bytes() const
+  {
+    return blocks_.capacity() * sizeof(Block) + cells_.capacity() * sizeof(int) +
+           distances_.capacity() * sizeof(float);
+  }
+
 private:
   static constexpr int SHIFT = 3, EDGE = 1 << SHIFT;
   static constexpr std::size_t CELLS_A_BLOCK = EDGE * EDGE * EDGE;

@@ -25,6 +25,14 @@ struct Surface {
   template <typename Scalar>
   void
   build(const CloudView<Scalar>& cloud, const Vec3& centre, float spacing);
+
+  /** \brief Of memory. */
+  std::size_t
+  bytes() const
+  {
+    return (points.capacity() + normals.capacity()) * sizeof(Eigen::Vector3f) +
+           nearest.bytes() + free_space.bytes();
+  }
 };
 
 extern template void
