@@ -389,6 +389,15 @@ TEST_F(CliTest, theCloudsHaveASayUnlessToldOtherwise)
             unseen.at("evidence"));
   EXPECT_EQ(align(common + "--no-viewpoint=neither").status, 2);
 
+  const auto doubted = align(common + "--min-confidence 1").json();
+  EXPECT_GT(doubted.at("timings_ms").at("second_look").get<double>(), 0);
+  expectTruth(poseOf(doubted));
+  EXPECT_EQ(align(common + "--min-confidence 1 --no-second-look")
+                .json()
+                .at("timings_ms")
+                .at("second_look"),
+            0);
+
   const auto fast = align(common + "--fast").json();
   EXPECT_FALSE(fast.at("evidence").contains("matched"));
   EXPECT_GT(fast.at("evidence").at("inliers").get<double>(), 12);

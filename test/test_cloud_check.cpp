@@ -191,12 +191,25 @@ TEST(CloudAgreement, TellsAMatchFromAContradiction)
   const SurfacePair unseen{blind, blind_too, SPACING};
   EXPECT_EQ(Look(unseen, 1000, 1.5f, 3)(slid).contradicted, 0);
 
+  // Their normals alone tell that just before a wall there is nothing ...
+  const SurfacePair sides{blind, blind_too, SPACING, Belief::Normals};
+  const Look by_sides(sides, 1000, 1.5f, 3);
+  EXPECT_EQ(by_sides(toPose(Eigen::Isometry3d::Identity())).contradicted, 0);
+  EXPECT_GT(by_sides(toPose(motion(0, {0.2, 0, 0}))).contradicted, 0.05);
+  EXPECT_LT(by_sides(toPose(motion(0, {-20, 0, 0}))).contradicted, 0.01) << "far away";
+
   // Turned over, the floor lies on itself, but faces the other way.
   Eigen::Isometry3d over = Eigen::Isometry3d::Identity();
   over.linear() = Eigen::AngleAxisd(3.14159265358979323846, Eigen::Vector3d::UnitX())
                       .toRotationMatrix();
   over.translation().y() = 2;
   EXPECT_LT(look(toPose(over)).matched, 0.1);
+  // ... and which side of it was seen, which none of them tells if nothing is believed.
+  EXPECT_GT(by_sides(toPose(over)).contradicted, 0.2);
+  const SurfacePair nothing{blind, blind_too, SPACING, Belief::Nothing};
+  const CloudAgreement turned = Look(nothing, 1000, 1.5f, 3)(toPose(over));
+  EXPECT_GT(turned.matched, 0.2);
+  EXPECT_EQ(turned.contradicted, 0);
 }
 
 TEST(PlaneAlignment, MovesAPoseOntoTheSurface)

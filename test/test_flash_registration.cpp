@@ -55,12 +55,25 @@ TEST_F(FlashRegistrationTest, LetsTheCloudsHaveASay)
   registration.align(output);
   expectFound();
   EXPECT_FALSE(registration.getResult().evidence.has_viewpoints);
-  EXPECT_EQ(registration.getResult().evidence.agreement.contradicted, 0);
+  EXPECT_TRUE(registration.getResult().evidence.has_sides);
 
   registration.setCloudCheck(false);
   registration.align(output);
   expectFound();
   EXPECT_FALSE(registration.getResult().evidence.has_clouds);
+}
+
+TEST_F(FlashRegistrationTest, LooksASecondTimeUnlessToldNotTo)
+{
+  Parameters parameters = registration.getParameters();
+  parameters.min_confidence = 1;
+  registration.setParameters(parameters);
+  EXPECT_TRUE(registration.getSecondLook());
+  registration.align(output);
+  EXPECT_GT(registration.getResult().timings_ms.second_look, 0);
+  registration.setSecondLook(false);
+  registration.align(output);
+  EXPECT_EQ(registration.getResult().timings_ms.second_look, 0);
 }
 
 TEST_F(FlashRegistrationTest, EstimatesTheResolution)

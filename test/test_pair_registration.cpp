@@ -226,7 +226,86 @@ TEST_F(PairRegistrationTest, UsesTheFreeSpaceOfOneSideAlone)
   source.viewpoint_known = target.viewpoint_known = false;
   const PairResult neither = registration.align(source, target, options);
   EXPECT_FALSE(neither.pose.evidence.has_viewpoints);
-  EXPECT_EQ(neither.pose.evidence.agreement.contradicted, 0);
+  EXPECT_FALSE(neither.pose.evidence.one_viewpoint);
+  EXPECT_LT(room().error(neither.pose.T_target_source), 0.5 * V);
+}
+
+TEST_F(PairRegistrationTest, LooksASecondTimeWhereThereIsDoubt)
+{
+  PairOptions once = atResolution();
+  once.second_look = false;
+  const PairResult first = registration.align(source, target, once);
+  const PairResult sure = registration.align(source, target, atResolution());
+  EXPECT_TRUE(same(first, sure)) << "there was no doubt";
+  EXPECT_EQ(sure.pose.timings_ms.second_look, 0);
+  EXPECT_EQ(sure.pose.evidence.inliers, static_cast<double>(sure.pose.inliers.size()));
+
+  PairOptions twice = atResolution();
+  twice.parameters.min_confidence = 1;
+  twice.parameters.max_hypotheses = 64;
+  const PairResult second = registration.align(source, target, twice);
+  EXPECT_LT(room().error(second.pose.T_target_source), 0.5 * V);
+  EXPECT_GT(second.pose.timings_ms.second_look, 0);
+  EXPECT_FALSE(second.pose.converged);
+  EXPECT_GT(second.pose.confidence, 0.6);
+  once.parameters = twice.parameters;
+  EXPECT_GE(second.pose.hypotheses.size(),
+            registration.align(source, target, once).pose.hypotheses.size());
+  // Matches of both sides say how many agree; the rows are those of the first.
+  EXPECT_NE(second.pose.evidence.inliers,
+            static_cast<double>(second.pose.inliers.size()));
+  EXPECT_LT(static_cast<std::size_t>(second.pose.inliers.back()),
+            second.matches.size());
+  PairRegistration alone(BackendKind::Cpu, 1);
+  EXPECT_TRUE(same(second, alone.align(source, target, twice)));
+}
+
+TEST_F(PairRegistrationTest, LooksOnceAtWhatIsNotItsOwn)
+{
+  PairOptions doubting = atResolution();
+  doubting.parameters.min_confidence = 1;
+  const Scan from = registration.makeScan(source, V),
+             to = registration.makeScan(target, V);
+  const std::vector<FeatureMatch> matches = registration.match(from, to);
+  const Correspondences given = toCorrespondences(from, to, matches);
+  EXPECT_EQ(
+      registration.align(from, to, given.view(), doubting).pose.timings_ms.second_look,
+      0);
+  const PairResult own = registration.align(from, to, matches, doubting);
+  EXPECT_GT(own.pose.timings_ms.second_look, 0);
+  EXPECT_TRUE(same(own, registration.align(from, to, doubting)));
+  doubting.mutual = true;
+  EXPECT_EQ(registration.align(from, to, doubting).pose.timings_ms.second_look, 0);
+  doubting.mutual = false;
+  doubting.cloud_check = false;
+  EXPECT_EQ(registration.align(from, to, doubting).pose.timings_ms.second_look, 0);
+
+  for (const FeatureMatch& wrong :
+       {FeatureMatch{-1, 0, 0},
+        FeatureMatch{0, static_cast<std::int32_t>(to.size()), 0}})
+    EXPECT_THROW(registration.align(from, to, std::vector{wrong}),
+                 std::invalid_argument);
+}
+
+TEST_F(PairRegistrationTest, FindsFromTheOtherSideWhatOneSideDoesNotShow)
+{
+  // Not one right match in the first look: each points to where its point is not.
+  const Scan from = registration.makeScan(source, V),
+             to = registration.makeScan(target, V);
+  made::Random random(5);
+  std::vector<FeatureMatch> wrong;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    wrong.push_back(
+        {static_cast<std::int32_t>(i),
+         static_cast<std::int32_t>(random.uniform(0, static_cast<double>(to.size()))),
+         0});
+  PairOptions options;
+  options.second_look = false;
+  EXPECT_FALSE(registration.align(from, to, wrong, options).pose.converged);
+  options.second_look = true;
+  const PairResult result = registration.align(from, to, wrong, options);
+  EXPECT_LT(room().error(result.pose.T_target_source), 0.5 * V);
+  EXPECT_TRUE(result.pose.converged) << result.pose.confidence;
 }
 
 TEST_F(PairRegistrationTest, MatchesAsItIsTold)

@@ -297,9 +297,10 @@ documentedConfidence(const Evidence& e, std::size_t column)
                           e.lead,
                           std::log(e.stiffness + 0.001),
                           e.hold};
-  constexpr double COEFFICIENTS[3][8] = {
+  constexpr double COEFFICIENTS[4][8] = {
       {-5.55, 0.93, 1.69, -1.69, -3.39, 0.65, 0.56, 1.76},
       {-3.54, 1.96, 0, 0, -5.66, 1.19, 0.97, 2.03},
+      {-1.75, 2.35, 1.79, -0.05, -0.57, 0, 0.81, 0},
       {-6.65, 2.57, 0, 0, -5.23, 2.08, 0.76, 1.55}};
   double log_odds = 0;
   for (std::size_t i = 0; i < 8; ++i)
@@ -321,11 +322,18 @@ TEST(Verdict, OfCloudsIsTheDocumentedOne)
   evidence.stiffness = 0.02;
   evidence.rivals = 0.3;
   evidence.mirrored = -20;
-  for (const std::size_t column : {0, 1, 2}) {
+  for (const std::size_t column : {0, 1, 2, 3}) {
     evidence.has_viewpoints = column < 2;
     evidence.one_viewpoint = column == 1;
+    evidence.has_sides = column == 2;
     const double p = documentedConfidence(evidence, column);
     EXPECT_NEAR(confidenceOf(evidence), p, 1e-9) << column;
+    Evidence again = evidence;
+    again.second_look = true;
+    EXPECT_NEAR(confidenceOf(again), p / (p + 2 * (1 - p)), 1e-9) << column;
+    again.second_look = false;
+    again.overruled_sides = true;
+    EXPECT_NEAR(confidenceOf(again), p / (p + 3 * (1 - p)), 1e-9) << column;
   }
 }
 
@@ -378,6 +386,7 @@ TEST(Verdict, IsLimitedByEachOfItsNeeds)
     for (const bool one : {true, false}) {
       evidence.has_viewpoints = viewpoints;
       evidence.one_viewpoint = one;
+      evidence.has_sides = !viewpoints && one;
       EXPECT_GT(confidenceOf(evidence), 0.95);
       Evidence overruled = evidence;
       overruled.overruled_viewpoints = true;

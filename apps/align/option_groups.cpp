@@ -128,6 +128,12 @@ addPipeline(CLI::App& app, Options& options, Words& words)
                wrapped("Judge poses by the correspondences alone: a few milliseconds "
                        "less, fewer right poses, a weaker verdict"))
       ->group(group);
+  app.add_flag("!--no-second-look",
+               options.second_look,
+               wrapped("Don't look again, from the other side and at a coarser "
+                       "resolution, where the clouds leave the pose in doubt: less "
+                       "time for hard pairs, and fewer of them right"))
+      ->group(group);
   app.add_flag(
          "--no-viewpoint",
          words.no_viewpoint,

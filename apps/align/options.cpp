@@ -156,6 +156,7 @@ Options::pairOptions() const
   result.neighbors = neighbors;
   result.mutual = mutual;
   result.cloud_check = !fast;
+  result.second_look = second_look;
   return result;
 }
 

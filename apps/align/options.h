@@ -51,6 +51,7 @@ struct Options {
   bool mutual = false;
   /** \brief Leave the clouds out of the decision which pose is right. */
   bool fast = false;
+  bool second_look = true;
   /** \brief Whether the sensor stood at the VIEWPOINT of its cloud. */
   bool source_viewpoint_known = true;
   bool target_viewpoint_known = true;

@@ -279,8 +279,9 @@ stepsOf(const Outcome& outcome)
        both(&FeatureTimings::point_histograms) +
            both(&FeatureTimings::feature_histograms)},
       {"matching", t.matching},
-      {"pose", t.estimation.total - cloud_check, true},
-      {"cloud check", cloud_check, true}};
+      {"pose", t.estimation.total - cloud_check - t.estimation.second_look, true},
+      {"cloud check", cloud_check, true},
+      {"second look", t.estimation.second_look, true}};
   double rest = outcome.total_ms;
   for (const Step& step : steps)
     rest -= step.milliseconds;

@@ -60,6 +60,9 @@ evidenceOf(const Evidence& evidence)
     json["viewpoints"] = evidence.has_viewpoints;
     json["one_viewpoint"] = evidence.one_viewpoint;
     json["overruled_viewpoints"] = evidence.overruled_viewpoints;
+    json["sides"] = evidence.has_sides;
+    json["overruled_sides"] = evidence.overruled_sides;
+    json["second_look"] = evidence.second_look;
     json["matched"] = evidence.agreement.matched;
     json["contradicted"] = evidence.agreement.contradicted;
     json["residual"] = evidence.agreement.residual;

@@ -230,6 +230,21 @@ public:
     return cloud_check_;
   }
 
+  /** \brief Whether to look a second time where the clouds leave the pose in doubt (the
+   * default), see PairOptions::second_look. Who wants an answer within the time of one look
+   * turns it off. */
+  void
+  setSecondLook(bool look)
+  {
+    second_look_ = look;
+  }
+
+  bool
+  getSecondLook() const
+  {
+    return second_look_;
+  }
+
   /** \brief Whether the sensors stood at the sensor_origin_ of their clouds (the
    * default). Say no for clouds in a frame of another kind (merged scans, models):
    * fewer poses are told from wrong ones, but none for a wrong reason. */
@@ -541,6 +556,7 @@ private:
   detail::CloudSide source_side_;
   detail::CloudSide target_side_;
   bool cloud_check_ = true;
+  bool second_look_ = true;
 
   detail::CorrespondenceBuffer buffer_;
 

@@ -59,6 +59,11 @@ struct PairOptions {
   /** \brief Whether the clouds judge the hypotheses, too, wherever there are clouds. */
   bool cloud_check = true;
 
+  /** \brief Whether to look a second time where the clouds leave the pose in doubt: at matches
+   * from the target's side, and both ways at a coarser resolution. For correspondences of the
+   * caller's, and with `mutual`, there is one look. */
+  bool second_look = true;
+
   /** \brief Whether to spend no more time on a pair once none of its poses can become certain:
    * most pairs of a large set don't overlap. What is found is then not looked at any closer,
    * and its confidence is next to 0. */
@@ -215,6 +220,13 @@ public:
   /** \brief From scans with descriptors to the pose. */
   PairResult
   align(const Scan& source, const Scan& target, const PairOptions& options = {});
+
+  /** \brief From what match() returned to the pose. */
+  PairResult
+  align(const Scan& source,
+        const Scan& target,
+        const std::vector<FeatureMatch>& matches,
+        const PairOptions& options = {});
 
   /** \brief From correspondences of the caller's to the pose; the clouds that they lie in
    * judge it. Without points in one of both clouds the correspondences decide alone. */

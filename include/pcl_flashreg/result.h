@@ -104,6 +104,14 @@ struct Evidence {
   /** \brief Whether viewpoints are known and not believed: without them the clouds are more
    * certain, of another pose perhaps. */
   bool overruled_viewpoints = false;
+  /** \brief Whether no viewpoint is known, but the sides of the surfaces that normals point to
+   * are believed to be those that were seen. */
+  bool has_sides = false;
+  /** \brief Whether these are not believed: without them the clouds are more certain. */
+  bool overruled_sides = false;
+  /** \brief Whether it took a second look (PairOptions::second_look). `inliers` then is the mean
+   * of matches from the source's side and from the target's. */
+  bool second_look = false;
   CloudAgreement agreement;
   /** \brief By how much the evidence for this pose exceeds that for the best other one,
    * as a logarithm; at most 5, which is also its value where there is no other one. */

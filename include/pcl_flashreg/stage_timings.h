@@ -21,6 +21,9 @@ struct StageTimings {
   /** \brief Bringing the hypotheses before the clouds, where there are any, and putting the
    * result together. */
   double cloud_check = 0;
+  /** \brief More correspondences, and what they speak for brought before the clouds, where
+   * the first left doubt. */
+  double second_look = 0;
   /** \brief The whole call. */
   double total = 0;
 };
@@ -32,7 +35,7 @@ struct Stage {
 };
 
 /** \brief All stages in their order: what reports list, and what adds up to the total. */
-inline constexpr std::array<Stage, 9> STAGES = {{
+inline constexpr std::array<Stage, 10> STAGES = {{
     {"preparation", &StageTimings::preparation},
     {"first_order_graph", &StageTimings::first_order_graph},
     {"second_order_graph", &StageTimings::second_order_graph},
@@ -42,6 +45,7 @@ inline constexpr std::array<Stage, 9> STAGES = {{
     {"verification", &StageTimings::verification},
     {"refinement", &StageTimings::refinement},
     {"cloud_check", &StageTimings::cloud_check},
+    {"second_look", &StageTimings::second_look},
 }};
 
 } // namespace pcl_flashreg

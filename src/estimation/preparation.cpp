@@ -89,14 +89,12 @@ pack(const Scalar* xyz,
   return static_cast<float>(std::sqrt(squared_radius));
 }
 
-} // namespace
-
+/** \brief Chooses the rows that are used. */
 template <typename Scalar>
 void
-prepare(const CorrespondenceView<Scalar>& in,
-        std::size_t max_correspondences,
-        Preparation& out,
-        Problem& problem)
+chooseRows(const CorrespondenceView<Scalar>& in,
+           std::size_t max_correspondences,
+           Preparation& out)
 {
   out.rows.clear();
   for (std::size_t row = 0; row < in.size; ++row)
@@ -106,27 +104,66 @@ prepare(const CorrespondenceView<Scalar>& in,
   const std::size_t valid = out.rows.size();
   keepBestRanked(in.ranks, max_correspondences, out.rows);
   out.dropped = valid - out.rows.size();
+}
 
-  out.source_centre = centroid(in.source_xyz, out.rows);
-  out.target_centre = centroid(in.target_xyz, out.rows);
-  problem.resize(out.rows.size());
+template <typename Scalar>
+void
+packBoth(const CorrespondenceView<Scalar>& in,
+         const Preparation& prepared,
+         Problem& problem)
+{
+  problem.resize(prepared.rows.size());
   problem.radius = std::max(pack(in.source_xyz,
-                                 out.rows,
-                                 out.source_centre,
+                                 prepared.rows,
+                                 prepared.source_centre,
                                  problem.sx,
                                  problem.sy,
                                  problem.sz),
                             pack(in.target_xyz,
-                                 out.rows,
-                                 out.target_centre,
+                                 prepared.rows,
+                                 prepared.target_centre,
                                  problem.tx,
                                  problem.ty,
                                  problem.tz));
+}
+
+} // namespace
+
+template <typename Scalar>
+void
+prepare(const CorrespondenceView<Scalar>& in,
+        std::size_t max_correspondences,
+        Preparation& out,
+        Problem& problem)
+{
+  chooseRows(in, max_correspondences, out);
+  out.source_centre = centroid(in.source_xyz, out.rows);
+  out.target_centre = centroid(in.target_xyz, out.rows);
+  packBoth(in, out, problem);
+}
+
+template <typename Scalar>
+void
+prepareLike(const Preparation& centred,
+            const CorrespondenceView<Scalar>& in,
+            std::size_t max_correspondences,
+            Problem& problem)
+{
+  Preparation out;
+  chooseRows(in, max_correspondences, out);
+  out.source_centre = centred.source_centre;
+  out.target_centre = centred.target_centre;
+  packBoth(in, out, problem);
 }
 
 template void
 prepare(const CorrespondenceView<float>&, std::size_t, Preparation&, Problem&);
 template void
 prepare(const CorrespondenceView<double>&, std::size_t, Preparation&, Problem&);
+template void
+prepareLike(const Preparation&,
+            const CorrespondenceView<double>&,
+            std::size_t,
+            Problem&);
 
 } // namespace pcl_flashreg

@@ -32,6 +32,15 @@ prepare(const CorrespondenceView<Scalar>& correspondences,
         Preparation& preparation,
         Problem& problem);
 
+/** \brief Other correspondences of the same clouds, in the same frames: centred as these.
+ * \param[in] centred what was subtracted from them */
+template <typename Scalar>
+void
+prepareLike(const Preparation& centred,
+            const CorrespondenceView<Scalar>& correspondences,
+            std::size_t max_correspondences,
+            Problem& problem);
+
 /** \brief The same for who does not ask what became of the rows. */
 template <typename Scalar>
 void
@@ -50,5 +59,10 @@ extern template void
 prepare(const CorrespondenceView<float>&, std::size_t, Preparation&, Problem&);
 extern template void
 prepare(const CorrespondenceView<double>&, std::size_t, Preparation&, Problem&);
+extern template void
+prepareLike(const Preparation&,
+            const CorrespondenceView<double>&,
+            std::size_t,
+            Problem&);
 
 } // namespace pcl_flashreg

@@ -54,15 +54,18 @@ isHopeless(Evidence evidence)
   return confidenceOfClouds(evidence) < HOPELESS;
 }
 
-class CloudCheck {
+} // namespace
+
+/** \brief Poses before the clouds, which know where they were seen from, or don't. */
+class CloudCheck::Court {
 public:
-  CloudCheck(const SurfacePair& clouds,
-             const Problem& problem,
-             float inlier_distance,
-             double half_side,
-             ThreadPool& pool)
+  Court(const SurfacePair& clouds,
+        const std::vector<const Problem*>& witnesses,
+        float inlier_distance,
+        double half_side,
+        ThreadPool& pool)
       : clouds_(clouds),
-        problem_(problem),
+        witnesses_(witnesses),
         inlier_distance_(inlier_distance),
         half_side_(half_side),
         pool_(pool),
@@ -71,25 +74,29 @@ public:
   {
   }
 
-  /** \brief Moves poses onto the surface, and asks the clouds on many points. */
+  /** \brief Takes up what is new at the end of a list. */
   void
-  study(const std::vector<Pose>& poses)
+  studyNew(const std::vector<Pose>& list)
   {
-    const std::size_t first = checked_.size();
-    checked_.resize(first + poses.size());
-    pool_.forEach(poses.size(), [&](std::size_t i, std::size_t) {
-      CheckedPose& result = checked_[first + i];
-      result.pose = moveOntoTarget(clouds_, poses[i]);
-      result.agreement = look_(result.pose);
-      result.inlier_count =
-          static_cast<int>(inliersOf(problem_, result.pose, inlier_distance_).size());
+    const std::size_t known = std::min(studied_, list.size());
+    studied_ = list.size();
+    study({list.begin() + static_cast<std::ptrdiff_t>(known), list.end()});
+  }
+
+  /** \brief There are more witnesses than before. */
+  void
+  countAgain()
+  {
+    pool_.forEach(checked_.size(), [&](std::size_t i, std::size_t) {
+      checked_[i].support = supportOf(checked_[i].pose);
     });
   }
 
   /** \brief Ranks the poses and gathers the evidence for the best. */
   CloudFindings
-  judge(bool with_viewpoints, bool give_up_early)
+  judge(bool give_up_early)
   {
+    const bool with_viewpoints = clouds_.seeing();
     std::size_t best = bestOf(with_viewpoints);
     if (give_up_early) {
       const CloudFindings so_far = findings(with_viewpoints);
@@ -109,12 +116,35 @@ public:
   }
 
 private:
+  double
+  supportOf(const Pose& pose) const
+  {
+    double sum = 0;
+    for (const Problem* witness : witnesses_)
+      sum += static_cast<double>(inliersOf(*witness, pose, inlier_distance_).size());
+    return sum / static_cast<double>(witnesses_.size());
+  }
+
+  /** \brief Moves poses onto the surface, and asks the clouds on many points. */
+  void
+  study(const std::vector<Pose>& poses)
+  {
+    const std::size_t first = checked_.size();
+    checked_.resize(first + poses.size());
+    pool_.forEach(poses.size(), [&](std::size_t i, std::size_t) {
+      CheckedPose& result = checked_[first + i];
+      result.pose = moveOntoTarget(clouds_, poses[i]);
+      result.agreement = look_(result.pose);
+      result.support = supportOf(result.pose);
+    });
+  }
+
   /** \brief What speaks for a pose, as a logarithm. */
   static double
   weightOf(const CheckedPose& pose, bool with_viewpoints)
   {
     return evidenceOf(pose.agreement, with_viewpoints) +
-           0.5 * std::log(pose.inlier_count + 5.0);
+           0.5 * std::log(pose.support + 5.0);
   }
 
   /** \brief How much of a rival another pose is: 1 for one that explains as much.
@@ -131,7 +161,7 @@ private:
         weightOf(pose, with_viewpoints) - weightOf(rival, with_viewpoints);
     const double lead_by_clouds = evidenceOf(pose.agreement, with_viewpoints) -
                                   evidenceOf(rival.agreement, with_viewpoints);
-    const double dozens = rival.inlier_count / A_FEW_DOZEN;
+    const double dozens = rival.support / A_FEW_DOZEN;
     const double steepness =
         std::clamp(BY_CLOUDS / std::max(dozens, 1e-3), LEAST_BY_CLOUDS, BY_CLOUDS);
     const double supported = 1 - 1 / (1 + std::pow(dozens, 4));
@@ -191,10 +221,11 @@ private:
     findings.poses = distinct(with_viewpoints);
     const CheckedPose& first = findings.poses.front();
     Evidence& evidence = findings.evidence;
-    evidence.inliers = first.inlier_count;
+    evidence.inliers = first.support;
     evidence.has_clouds = true;
-    evidence.has_viewpoints = with_viewpoints;
-    evidence.one_viewpoint = with_viewpoints && !clouds_.oriented();
+    evidence.has_viewpoints = clouds_.belief == Belief::Viewpoints;
+    evidence.has_sides = clouds_.belief == Belief::Normals;
+    evidence.one_viewpoint = evidence.has_viewpoints && !clouds_.oriented();
     evidence.agreement = look_closely_(first.pose);
     evidence.lead = MAX_LEAD;
     for (std::size_t i = 1; i < findings.poses.size(); ++i) {
@@ -215,48 +246,86 @@ private:
   static constexpr std::size_t NOWHERE = ~std::size_t{0};
 
   const SurfacePair& clouds_;
-  const Problem& problem_;
+  const std::vector<const Problem*>& witnesses_;
   float inlier_distance_;
   double half_side_;
   ThreadPool& pool_;
   Look look_, look_closely_;
   std::vector<CheckedPose> checked_;
+  /** \brief Of the list. */
+  std::size_t studied_ = 0;
   std::vector<Walk> walks_;
   std::size_t walked_from_ = NOWHERE;
 };
 
-} // namespace
+/** \brief Where no viewpoint is known, normals may still be right. */
+static SurfacePair
+believed(SurfacePair clouds)
+{
+  if (!clouds.seeing())
+    clouds.belief = Belief::Normals;
+  return clouds;
+}
+
+CloudCheck::CloudCheck(const SurfacePair& clouds,
+                       float inlier_distance,
+                       bool give_up_early,
+                       ThreadPool& pool)
+    : clouds_(believed(clouds)),
+      blind_clouds_{clouds.source, clouds.target, clouds.spacing, Belief::Nothing},
+      give_up_early_(give_up_early),
+      half_side_(halfSideOf(clouds.source)),
+      pool_(pool),
+      inlier_distance_(inlier_distance)
+{
+}
+
+CloudCheck::~CloudCheck() = default;
+
+void
+CloudCheck::addWitnesses(const Problem& correspondences)
+{
+  witnesses_.push_back(&correspondences);
+  for (Court* court : {seeing_.get(), blind_.get()})
+    if (court)
+      court->countAgain();
+}
+
+void
+CloudCheck::addPoses(const std::vector<Pose>& hypotheses,
+                     const std::vector<ScoredPose>& favourites)
+{
+  for (const ScoredPose& favourite : favourites)
+    list_.push_back(favourite.pose);
+  if (!favourites.empty())
+    screen(clouds_, hypotheses, half_side_, list_, pool_);
+}
 
 CloudFindings
-checkOnClouds(const SurfacePair& clouds,
-              const Problem& problem,
-              const std::vector<Pose>& hypotheses,
-              const std::vector<ScoredPose>& favourites,
-              float inlier_distance,
-              bool give_up_early,
-              ThreadPool& pool)
+CloudCheck::judgeIn(std::unique_ptr<Court>& court,
+                    const SurfacePair& clouds,
+                    std::size_t most_poses)
 {
-  std::vector<Pose> list;
-  for (const ScoredPose& favourite : favourites)
-    list.push_back(favourite.pose);
-  if (clouds.source.points.empty() || clouds.target.points.empty() || list.empty())
-    return {};
-  const double half_side = halfSideOf(clouds.source);
-  if (clouds.seeing())
-    screen(clouds, hypotheses, half_side, list, pool);
+  if (!court)
+    court = std::make_unique<Court>(
+        clouds, witnesses_, inlier_distance_, half_side_, pool_);
+  const std::size_t count = std::min(list_.size(), most_poses);
+  court->studyNew({list_.begin(), list_.begin() + static_cast<std::ptrdiff_t>(count)});
+  return court->judge(give_up_early_);
+}
 
-  const auto judge = [&](const SurfacePair& with_or_without) {
-    CloudCheck check(with_or_without, problem, inlier_distance, half_side, pool);
-    check.study(list);
-    return check.judge(with_or_without.seeing(), give_up_early);
-  };
-  CloudFindings seeing = judge(clouds);
-  if (!clouds.seeing() || confidenceOfClouds(seeing.evidence) > NOT_TO_OVERRULE)
+CloudFindings
+CloudCheck::judge()
+{
+  if (clouds_.source.points.empty() || clouds_.target.points.empty() || list_.empty())
+    return {};
+  CloudFindings seeing = judgeIn(seeing_, clouds_, list_.size());
+  if (confidenceOfClouds(seeing.evidence) > NOT_TO_OVERRULE)
     return seeing;
-  if (give_up_early)
-    list.resize(std::min(list.size(), FAVOURITES_IN_A_HURRY));
-  CloudFindings blind = judge({clouds.source, clouds.target, clouds.spacing, false});
-  blind.evidence.overruled_viewpoints = true;
+  CloudFindings blind = judgeIn(
+      blind_, blind_clouds_, give_up_early_ ? FAVOURITES_IN_A_HURRY : list_.size());
+  (clouds_.belief == Belief::Viewpoints ? blind.evidence.overruled_viewpoints
+                                        : blind.evidence.overruled_sides) = true;
   // What is more certain without the viewpoints says that they are wrong.
   const double enough =
       std::max(LEAST_TO_OVERRULE, confidenceOfClouds(seeing.evidence));

@@ -9,6 +9,7 @@
 
 #include <pcl_flashreg/result.h>
 
+#include <memory>
 #include <vector>
 
 namespace pcl_flashreg {
@@ -17,7 +18,8 @@ namespace pcl_flashreg {
 struct CheckedPose {
   Pose pose;
   CloudAgreement agreement;
-  int inlier_count = 0;
+  /** \brief Correspondences that agree; of several sets of them, the mean. */
+  double support = 0;
 };
 
 /** \brief What the clouds have to say. */
@@ -25,7 +27,7 @@ struct CloudFindings {
   /** \brief Distinct poses, best first. */
   std::vector<CheckedPose> poses;
   /** \brief For the best pose; what comes from correspondences alone is not filled in,
-   * but for the inliers. */
+   * but for the inliers, which are the best pose's support. */
   Evidence evidence;
   /** \brief Of the best pose, in the centred frame of the target. */
   std::vector<FreeMotion> free_motions;
@@ -33,24 +35,56 @@ struct CloudFindings {
 
 /** \brief Asks the clouds which of many hypotheses is right.
  *
- * Where both viewpoints are known, all hypotheses are screened on a few points, and the
+ * Where a viewpoint is known, all hypotheses are screened on a few points, and the
  * best again on more. The best dozen that differ, and the favourites, are moved onto the
  * target's surface and judged on all that is known: by (matched + 1 %) /
- * (contradicted + 1 %) * sqrt(inliers + 5), or without the denominator, if the viewpoints
- * are not known or not to be believed. The same on any number of threads.
- * \param[in] hypotheses to be screened, in the centred frames of the problem
- * \param[in] favourites poses that skip the screening
- * \param[in] inlier_distance as in Parameters
- * \param[in] give_up_early see PairOptions
- * \return no pose, if a cloud has no points
+ * (contradicted + 1 %) * sqrt(support + 5), or without the denominator, if the viewpoints
+ * are not known or not to be believed. Hypotheses may come in several lots, after each of
+ * which judge() says which of all so far is right. The same on any number of threads.
  */
-CloudFindings
-checkOnClouds(const SurfacePair& clouds,
-              const Problem& problem,
-              const std::vector<Pose>& hypotheses,
-              const std::vector<ScoredPose>& favourites,
-              float inlier_distance,
-              bool give_up_early,
-              ThreadPool& pool);
+class CloudCheck {
+public:
+  /** \param[in] clouds must outlive this
+   * \param[in] inlier_distance as in Parameters
+   * \param[in] give_up_early see PairOptions */
+  CloudCheck(const SurfacePair& clouds,
+             float inlier_distance,
+             bool give_up_early,
+             ThreadPool& pool);
+  ~CloudCheck();
+
+  /** \brief From now on these correspondences are asked, too, which poses they support; they
+   * must outlive this. */
+  void
+  addWitnesses(const Problem& correspondences);
+
+  /** \param[in] hypotheses to be screened, in the centred frames of all problems
+   * \param[in] favourites poses that skip the screening */
+  void
+  addPoses(const std::vector<Pose>& hypotheses,
+           const std::vector<ScoredPose>& favourites);
+
+  /** \return no pose, if there was none or a cloud has no points */
+  CloudFindings
+  judge();
+
+private:
+  class Court;
+
+  CloudFindings
+  judgeIn(std::unique_ptr<Court>& court,
+          const SurfacePair& clouds,
+          std::size_t most_poses);
+
+  const SurfacePair clouds_, blind_clouds_;
+  bool give_up_early_;
+  double half_side_ = 0;
+  ThreadPool& pool_;
+  float inlier_distance_;
+  std::vector<const Problem*> witnesses_;
+  /** \brief All that passed, in the order in which they came. */
+  std::vector<Pose> list_;
+  std::unique_ptr<Court> seeing_, blind_;
+};
 
 } // namespace pcl_flashreg

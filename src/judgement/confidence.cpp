@@ -93,6 +93,16 @@ fromCloudsWithOneViewpoint(const Evidence& e)
 }
 
 double
+fromCloudsWithSides(const Evidence& e)
+{
+  const double matched = e.agreement.matched + 0.01;
+  return logistic(-1.75 + 1.79 * std::log(matched) -
+                  0.05 * std::log(e.agreement.contradicted / matched + 0.01) +
+                  2.35 * std::log(e.inliers + 5) +
+                  0.81 * std::log(e.stiffness + 0.001) - 0.57 * e.agreement.residual);
+}
+
+double
 fromCloudsWithoutViewpoints(const Evidence& e)
 {
   return logistic(-6.65 + 2.57 * std::log(e.inliers + 5) + 2.08 * e.lead +
@@ -100,9 +110,18 @@ fromCloudsWithoutViewpoints(const Evidence& e)
                   5.23 * e.agreement.residual);
 }
 
+/** \brief A probability whose odds are divided by this. */
+double
+lessLikely(double probability, double odds)
+{
+  return probability / (probability + odds * (1 - probability));
+}
+
 double
 fittedToClouds(const Evidence& e)
 {
+  if (e.has_sides)
+    return fromCloudsWithSides(e);
   if (!e.has_viewpoints)
     return fromCloudsWithoutViewpoints(e);
   return e.one_viewpoint ? fromCloudsWithOneViewpoint(e) : fromClouds(e);
@@ -114,9 +133,15 @@ double
 confidenceOfClouds(const Evidence& evidence)
 {
   const double p = fittedToClouds(evidence) * neededOfClouds(evidence);
-  // Viewpoints are right more often than not.
+  // Viewpoints are right more often than not, and so are normals.
   constexpr double ODDS = 3;
-  return evidence.overruled_viewpoints ? p / (p + ODDS * (1 - p)) : p;
+  const double with_doubt = evidence.overruled_viewpoints || evidence.overruled_sides
+                                ? lessLikely(p, ODDS)
+                                : p;
+  // The more poses are tried, the better the best of the wrong ones.
+  constexpr double ODDS_OF_SECOND_LOOK = 2;
+  return evidence.second_look ? lessLikely(with_doubt, ODDS_OF_SECOND_LOOK)
+                              : with_doubt;
 }
 
 double

@@ -37,7 +37,9 @@ probabilityOfRival(const Hypothesis& rival)
 PairOptions
 withRivals(PairOptions options)
 {
+  // Other pairs make up for what one look does not find.
   options.give_up_early = true;
+  options.second_look = false;
   options.parameters.max_hypotheses =
       std::max(options.parameters.max_hypotheses, RIVALS);
   return options;

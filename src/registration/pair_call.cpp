@@ -4,6 +4,7 @@
 #include "registration/pair_call.h"
 
 #include "matching/search.h"
+#include "registration/other_matches.h"
 
 #include <pcl_flashreg/resolution.h>
 
@@ -113,22 +114,47 @@ PairCall::takeScans(const Scan& source, const Scan& target)
       options_.resolution.value_or(std::max(source.spacing(), target.spacing()));
 }
 
-Correspondences
+void
 PairCall::match()
 {
   begin(PairStep::Matching);
   const detail::Stopwatch watch;
   result_.matches =
       matchScans(result_.source, result_.target, options_, workers_.search.pool());
-  Correspondences correspondences =
-      toCorrespondences(result_.source, result_.target, result_.matches);
   result_.timings.matching = watch.milliseconds();
-  return correspondences;
+}
+
+void
+PairCall::takeMatches(const std::vector<FeatureMatch>& matches)
+{
+  const auto isRow = [](std::int32_t row, const Scan& scan) {
+    return row >= 0 && static_cast<std::size_t>(row) < scan.size();
+  };
+  for (const FeatureMatch& match : matches)
+    if (!isRow(match.query, result_.source) || !isRow(match.match, result_.target))
+      throw std::invalid_argument("match of keypoints " + std::to_string(match.query) +
+                                  " and " + std::to_string(match.match) +
+                                  ": the scans have " +
+                                  std::to_string(result_.source.size()) + " and " +
+                                  std::to_string(result_.target.size()));
+  result_.matches = matches;
+}
+
+void
+PairCall::estimateFromMatches()
+{
+  const Correspondences correspondences =
+      toCorrespondences(result_.source, result_.target, result_.matches);
+  if (!options_.second_look || options_.mutual)
+    return estimate(correspondences.view());
+  OtherMatches others(result_.source, result_.target, options_, workers_);
+  estimate(correspondences.view(), [&](std::size_t i) { return others.get(i); });
 }
 
 template <typename Scalar>
 void
-PairCall::estimate(const CorrespondenceView<Scalar>& correspondences)
+PairCall::estimate(const CorrespondenceView<Scalar>& correspondences,
+                   const SecondLook& second_look)
 {
   result_.correspondences = correspondences.size;
   begin(PairStep::Estimation);
@@ -139,32 +165,24 @@ PairCall::estimate(const CorrespondenceView<Scalar>& correspondences)
                              options_.give_up_early};
   const bool ask =
       options_.cloud_check && !result_.source.empty() && !result_.target.empty();
-  result_.pose = workers_.search.run(
-      correspondences, result_.parameters, options_.guess, ask ? &clouds : nullptr);
+  result_.pose = workers_.search.run(correspondences,
+                                     result_.parameters,
+                                     options_.guess,
+                                     ask ? &clouds : nullptr,
+                                     second_look);
   result_.timings.estimation = result_.pose.timings_ms;
 }
 
 template void
-PairCall::estimate(const CorrespondenceView<float>&);
+PairCall::estimate(const CorrespondenceView<float>&, const SecondLook&);
 template void
-PairCall::estimate(const CorrespondenceView<double>&);
+PairCall::estimate(const CorrespondenceView<double>&, const SecondLook&);
 
 PairResult
 PairCall::finish()
 {
   result_.timings.total = total_.milliseconds();
   return std::move(result_);
-}
-
-std::vector<FeatureMatch>
-matchScans(const Scan& source,
-           const Scan& target,
-           const PairOptions& options,
-           ThreadPool& pool)
-{
-  MutualMatches matches = searchFeatures(
-      source.features(), target.features(), options.neighbors, options.mutual, pool);
-  return options.mutual ? matches.mutual() : std::move(matches.forward);
 }
 
 } // namespace pcl_flashreg

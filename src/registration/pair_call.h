@@ -3,24 +3,12 @@
 
 #pragma once
 
-#include "registration/pose_search.h"
-#include "scan/scan_maker.h"
+#include "registration/pair_workers.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 #include <pcl_flashreg/pair_registration.h>
 
 namespace pcl_flashreg {
-
-/** \brief What does the work of all calls, with one pool of threads. */
-struct PairWorkers {
-  PairWorkers(BackendKind backend, unsigned num_threads)
-      : search(backend, num_threads), maker(search.pool())
-  {
-  }
-
-  PoseSearch search;
-  ScanMaker maker;
-};
 
 /** \brief One registration: its steps, each of which adds what it finds to the result and
  * books its time. Whoever calls them decides on their order. */
@@ -51,13 +39,21 @@ public:
   takeScans(const Scan& source, const Scan& target);
 
   /** \brief Correspondences between the scans. */
-  Correspondences
+  void
   match();
+
+  void
+  takeMatches(const std::vector<FeatureMatch>& matches);
+
+  /** \brief From them to the pose, with a second look at the scans where it takes one. */
+  void
+  estimateFromMatches();
 
   /** \brief From correspondences to the pose; the scans judge, where there are any. */
   template <typename Scalar>
   void
-  estimate(const CorrespondenceView<Scalar>& correspondences);
+  estimate(const CorrespondenceView<Scalar>& correspondences,
+           const SecondLook& second_look = {});
 
   const PairResult&
   result() const
@@ -77,12 +73,5 @@ private:
   PairResult result_;
   detail::Stopwatch total_;
 };
-
-/** \brief Matches of keypoints as PairOptions wants them. */
-std::vector<FeatureMatch>
-matchScans(const Scan& source,
-           const Scan& target,
-           const PairOptions& options,
-           ThreadPool& pool);
 
 } // namespace pcl_flashreg

@@ -5,6 +5,7 @@
 
 #include <pcl_flashreg/pair_registration.h>
 
+#include "registration/other_matches.h"
 #include "registration/pair_call.h"
 #include "scan/points.h"
 
@@ -50,8 +51,8 @@ PairRegistration::align(const ScanInput<Scalar>& source,
   const PreparedInput from(source), to(target);
   call.chooseResolution(from, to);
   call.makeScans(from, to, ScanContent::Descriptors);
-  const Correspondences correspondences = call.match();
-  call.estimate(correspondences.view());
+  call.match();
+  call.estimateFromMatches();
   return call.finish();
 }
 
@@ -62,8 +63,21 @@ PairRegistration::align(const Scan& source,
 {
   PairCall call(*impl_, options);
   call.takeScans(source, target);
-  const Correspondences correspondences = call.match();
-  call.estimate(correspondences.view());
+  call.match();
+  call.estimateFromMatches();
+  return call.finish();
+}
+
+PairResult
+PairRegistration::align(const Scan& source,
+                        const Scan& target,
+                        const std::vector<FeatureMatch>& matches,
+                        const PairOptions& options)
+{
+  PairCall call(*impl_, options);
+  call.takeScans(source, target);
+  call.takeMatches(matches);
+  call.estimateFromMatches();
   return call.finish();
 }
 

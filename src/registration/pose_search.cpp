@@ -45,6 +45,9 @@ checkInput(const CorrespondenceView<Scalar>& in)
  * more of them where the clouds choose. */
 constexpr int LISTED = 5, LISTED_FOR_CLOUDS = 20;
 
+/** \brief Hypotheses of a second look that need not pass the screening. */
+constexpr std::size_t FAVOURITES_OF_OTHERS = 8;
+
 Parameters
 withRivals(Parameters parameters, bool for_clouds)
 {
@@ -129,32 +132,81 @@ PoseSearch::addSecondBest(const Parameters& parameters,
                    [](const auto& a, const auto& b) { return a.score > b.score; });
 }
 
+/** \brief Brings before the clouds what other correspondences speak for. */
+void
+PoseSearch::lookAgain(const SecondLook& second_look,
+                      const Parameters& parameters,
+                      CloudCheck& check)
+{
+  StageTimings unused;
+  StageClock clock(unused);
+  for (std::size_t i = 0;; ++i) {
+    const std::optional<OtherCorrespondences> other = second_look(i);
+    if (!other)
+      return;
+    if (others_.size() <= i)
+      others_.push_back(std::make_unique<Problem>());
+    Problem& problem = *others_[i];
+    prepareLike(preparation_,
+                other->correspondences.view(),
+                static_cast<std::size_t>(parameters.max_correspondences),
+                problem);
+    if (other->are_witnesses)
+      check.addWitnesses(problem);
+    if (problem.size < 3)
+      continue;
+    PoseEstimate found = backend_->run(problem,
+                                       withRivals(parameters, true),
+                                       std::nullopt,
+                                       /* with_candidates */ true,
+                                       clock,
+                                       nullptr);
+    found.hypotheses.resize(std::min(found.hypotheses.size(), FAVOURITES_OF_OTHERS));
+    check.addPoses(found.candidates, found.hypotheses);
+  }
+}
+
 /** \brief Replaces the hypotheses by those that stand before the clouds, unless the best
  * of these has less than three inliers. */
-void
+CloudFindings
 PoseSearch::askClouds(const JudgingClouds& clouds,
                       const Parameters& parameters,
+                      const SecondLook& second_look,
                       PoseEstimate& estimate,
-                      CloudFindings& findings)
+                      StageClock& clock)
+{
+  const SurfacePair surfaces = prepareClouds(clouds);
+  CloudCheck check(surfaces, parameters.inlier_distance, clouds.give_up_early, pool_);
+  check.addWitnesses(problem_);
+  check.addPoses(estimate.candidates, estimate.hypotheses);
+  CloudFindings findings = check.judge();
+  clock.finish(&StageTimings::cloud_check);
+  if (second_look &&
+      confidenceOfClouds(findings.evidence) < parameters.min_confidence) {
+    lookAgain(second_look, parameters, check);
+    findings = check.judge();
+    findings.evidence.second_look = true;
+    clock.finish(&StageTimings::second_look);
+  }
+  if (findings.evidence.inliers < 3)
+    return {};
+  takeOver(findings, parameters, estimate);
+  return findings;
+}
+
+void
+PoseSearch::takeOver(const CloudFindings& findings,
+                     const Parameters& parameters,
+                     PoseEstimate& estimate) const
 {
   const float limit = parameters.inlier_distance;
-  findings = checkOnClouds(prepareClouds(clouds),
-                           problem_,
-                           estimate.candidates,
-                           estimate.hypotheses,
-                           limit,
-                           clouds.give_up_early,
-                           pool_);
-  if (findings.evidence.inliers < 3) {
-    findings = {};
-    return;
-  }
+  estimate.status = Status::Ok;
   estimate.hypotheses.clear();
   for (const CheckedPose& checked : findings.poses) {
     std::vector<int> inliers = inliersOf(problem_, checked.pose, limit);
     estimate.hypotheses.push_back({checked.pose,
                                    scoreOf(problem_, checked.pose, inliers, parameters),
-                                   checked.inlier_count});
+                                   static_cast<int>(inliers.size())});
     if (estimate.hypotheses.size() == 1)
       estimate.inliers = std::move(inliers);
   }
@@ -190,6 +242,9 @@ PoseSearch::fill(Result& result,
                      rival,
                      parameters.inlier_distance,
                      result.evidence);
+  // Of several looks, what all their correspondences say.
+  if (result.evidence.has_clouds)
+    result.evidence.inliers = findings.evidence.inliers;
   for (std::size_t i = 0; i < findings.poses.size(); ++i)
     result.hypotheses[i].agreement = findings.poses[i].agreement;
   result.hypotheses.resize(
@@ -233,7 +288,8 @@ Result
 PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
                 const Parameters& parameters,
                 const std::optional<RigidTransform>& guess,
-                const JudgingClouds* clouds)
+                const JudgingClouds* clouds,
+                const SecondLook& second_look)
 {
   parameters.validate();
   checkInput(correspondences);
@@ -253,26 +309,26 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
   clock.finish(&StageTimings::preparation);
 
   if (problem_.size >= 3) {
-    // Only with a viewpoint can the clouds tell which of thousands of poses is right.
-    const bool screen =
-        clouds && (clouds->source.viewpoint() || clouds->target.viewpoint());
     PoseEstimate estimate = backend_->run(problem_,
                                           withRivals(parameters, clouds != nullptr),
                                           centred_guess,
-                                          screen,
+                                          clouds != nullptr,
                                           clock,
                                           trace_);
     CloudFindings findings;
+    std::vector<Pose> motions;
     if (estimate.status == Status::Ok) {
       addSecondBest(parameters, estimate, clock);
-      std::vector<Pose> motions{estimate.hypotheses.front().pose};
-      if (clouds)
-        askClouds(*clouds, parameters, estimate, findings);
-      if (findings.evidence.has_clouds)
-        motions.push_back(estimate.hypotheses.front().pose);
+      motions.push_back(estimate.hypotheses.front().pose);
+    }
+    // Where these correspondences show no pose, others of the same clouds may.
+    if (clouds && (estimate.status == Status::Ok || second_look))
+      findings = askClouds(*clouds, parameters, second_look, estimate, clock);
+    if (findings.evidence.has_clouds)
+      motions.push_back(estimate.hypotheses.front().pose);
+    if (estimate.status == Status::Ok)
       findings.evidence.mirrored = mirroredEvidence(
           problem_, estimate.cliques, motions, parameters.inlier_distance, pool_);
-    }
     fill(result, estimate, findings, parameters);
     clock.finish(&StageTimings::cloud_check);
   }
@@ -284,12 +340,14 @@ template Result
 PoseSearch::run(const CorrespondenceView<float>&,
                 const Parameters&,
                 const std::optional<RigidTransform>&,
-                const JudgingClouds*);
+                const JudgingClouds*,
+                const SecondLook&);
 template Result
 PoseSearch::run(const CorrespondenceView<double>&,
                 const Parameters&,
                 const std::optional<RigidTransform>&,
-                const JudgingClouds*);
+                const JudgingClouds*,
+                const SecondLook&);
 
 const char*
 toString(Status status)

@@ -9,7 +9,9 @@
 #include "judgement/cpu/surface.h"
 
 #include <pcl_flashreg/estimator.h>
+#include <pcl_flashreg/pair_registration.h>
 
+#include <functional>
 #include <variant>
 
 namespace pcl_flashreg {
@@ -36,6 +38,17 @@ struct JudgingClouds {
   bool give_up_early = false;
 };
 
+/** \brief Other correspondences of the clouds that were registered. */
+struct OtherCorrespondences {
+  Correspondences correspondences;
+  /** \brief Whether they count as those of the first look do: of the same keypoints, and so
+   * about as many that agree with the right pose. */
+  bool are_witnesses = false;
+};
+
+/** \brief Hands them out one after the other, as they are wanted; nothing at the end. */
+using SecondLook = std::function<std::optional<OtherCorrespondences>(std::size_t)>;
+
 /** \brief From correspondences to the pose and the verdict: preparation, the backend's
  * stages, the clouds, the confidence. Keeps its memory from call to call. */
 class PoseSearch {
@@ -43,13 +56,16 @@ public:
   /** \param[in] num_threads of a pool of its own */
   PoseSearch(BackendKind backend, unsigned num_threads);
 
-  /** \brief As Estimator::estimate(); clouds are null where there are none. */
+  /** \brief As Estimator::estimate(); clouds are null where there are none.
+   * \param[in] second_look what to go on with where the clouds leave the pose in doubt; empty
+   * for none */
   template <typename Scalar>
   Result
   run(const CorrespondenceView<Scalar>& correspondences,
       const Parameters& parameters,
       const std::optional<RigidTransform>& guess,
-      const JudgingClouds* clouds);
+      const JudgingClouds* clouds,
+      const SecondLook& second_look = {});
 
   /** \brief For other steps of the same call. */
   ThreadPool&
@@ -77,11 +93,20 @@ private:
   addSecondBest(const Parameters& parameters,
                 PoseEstimate& estimate,
                 StageClock& clock);
-  void
+  CloudFindings
   askClouds(const JudgingClouds& clouds,
             const Parameters& parameters,
+            const SecondLook& second_look,
             PoseEstimate& estimate,
-            CloudFindings& findings);
+            StageClock& clock);
+  void
+  lookAgain(const SecondLook& second_look,
+            const Parameters& parameters,
+            CloudCheck& check);
+  void
+  takeOver(const CloudFindings& findings,
+           const Parameters& parameters,
+           PoseEstimate& estimate) const;
 
   Pose
   toCentred(const RigidTransform& T) const;
@@ -98,6 +123,8 @@ private:
   Trace* trace_ = nullptr;
   Preparation preparation_;
   Problem problem_, leftover_;
+  /** \brief Of a second look. */
+  std::vector<std::unique_ptr<Problem>> others_;
   Surface source_surface_, target_surface_;
 };
 
@@ -105,11 +132,13 @@ extern template Result
 PoseSearch::run(const CorrespondenceView<float>&,
                 const Parameters&,
                 const std::optional<RigidTransform>&,
-                const JudgingClouds*);
+                const JudgingClouds*,
+                const SecondLook&);
 extern template Result
 PoseSearch::run(const CorrespondenceView<double>&,
                 const Parameters&,
                 const std::optional<RigidTransform>&,
-                const JudgingClouds*);
+                const JudgingClouds*,
+                const SecondLook&);
 
 } // namespace pcl_flashreg

@@ -186,6 +186,32 @@ ScanMaker::make(const PreparedInput& input,
   return {data, seen.from, seen.source};
 }
 
+Scan
+ScanMaker::coarser(const Scan& scan, double factor)
+{
+  const double resolution = factor * scan.spacing();
+  const FeatureParameters parameters = FeatureParameters::fromResolution(resolution);
+  const PointView points{scan.points(), scan.size(), 3, nullptr, 0};
+  FeatureTimings timings;
+  findSurface(stages_,
+              points,
+              {scan.normals(), 3},
+              parameters,
+              ScanContent::Descriptors,
+              timings);
+  describeSurface(stages_, parameters, timings);
+  DescribedCloud keypoints = stages_.takeResult(ScanContent::Descriptors, false);
+  const auto data = std::make_shared<Scan::Data>();
+  data->spacing = resolution;
+  data->shift = scan.shift();
+  data->points = std::move(keypoints.points);
+  data->normals = std::move(keypoints.normals);
+  data->curvatures = std::move(keypoints.curvatures);
+  data->descriptors = std::move(keypoints.descriptors);
+  data->dimension = keypoints.features().dimension;
+  return {data, Eigen::Vector3d::Zero(), ViewpointSource::Unknown};
+}
+
 ScanMaker::Seen
 ScanMaker::turnToViewpoint(const PreparedInput& input, double resolution)
 {

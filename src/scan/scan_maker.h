@@ -62,6 +62,12 @@ public:
        ScanContent content,
        FeatureTimings& timings);
 
+  /** \brief A scan with descriptors as it would be seen at a coarser resolution: from its
+   * keypoints and their normals. In its frame, and seen from where it was.
+   * \param[in] factor by which it is coarser, > 1 */
+  Scan
+  coarser(const Scan& scan, double factor);
+
 private:
   struct Seen {
     Eigen::Vector3d from;

@@ -31,13 +31,14 @@ public:
   Answer
   run(const Problem& problem)
   {
+    const Scan source = told(problem.source, clouds_ >= Clouds::WithSourceViewpoint);
+    const Scan target = told(problem.target, clouds_ == Clouds::WithViewpoints);
     const Result result =
-        registration_
-            .align(told(problem.source, clouds_ >= Clouds::WithSourceViewpoint),
-                   told(problem.target, clouds_ == Clouds::WithViewpoints),
-                   problem.correspondences.view(),
-                   options_)
-            .pose;
+        problem.matches.empty()
+            ? registration_
+                  .align(source, target, problem.correspondences.view(), options_)
+                  .pose
+            : registration_.align(source, target, problem.matches, options_).pose;
     Answer answer;
     answer.found = result.status == Status::Ok;
     answer.T_target_source = result.T_target_source;

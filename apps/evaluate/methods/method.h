@@ -15,6 +15,8 @@ namespace pcl_flashreg::evaluate {
 /** \brief What a method is given of a pair. */
 struct Problem {
   const Correspondences& correspondences;
+  /** \brief The keypoints behind them; empty if the data set brings its own. */
+  const std::vector<FeatureMatch>& matches;
   /** \brief With descriptors, unless the data set brings its own correspondences; empty if
    * it does so without clouds. */
   Scan source, target;

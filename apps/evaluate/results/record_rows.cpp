@@ -32,6 +32,8 @@ resultColumns()
           "thickness",
           "has_clouds",
           "has_viewpoints",
+          "has_sides",
+          "support",
           "matched",
           "contradicted",
           "lead",
@@ -84,6 +86,8 @@ resultCells(const Record& r)
                 io::toText(e.thickness),
                 flag(e.has_clouds),
                 flag(e.has_viewpoints),
+                flag(e.has_sides),
+                io::toText(e.inliers),
                 io::toText(e.agreement.matched),
                 io::toText(e.agreement.contradicted),
                 io::toText(e.lead),
@@ -135,12 +139,13 @@ recordFromCells(const std::vector<std::string>& cells)
   if (cells.back().empty())
     return r;
   Evidence& e = r.evidence.emplace();
-  e.inliers = static_cast<double>(r.inliers);
   e.inlier_ratio = reader.number();
   e.rival_inliers = reader.number();
   e.thickness = reader.number();
   e.has_clouds = reader.flag();
   e.has_viewpoints = reader.flag();
+  e.has_sides = reader.flag();
+  e.inliers = reader.number();
   e.agreement.matched = reader.number();
   e.agreement.contradicted = reader.number();
   e.lead = reader.number();

@@ -50,6 +50,7 @@ makeMethods(const Options& options, const Job& job)
 struct Prepared {
   Scan source, target;
   Correspondences correspondences;
+  std::vector<FeatureMatch> matches;
   Times times;
 };
 
@@ -96,10 +97,9 @@ prepare(const Pair& pair,
   PairOptions matching;
   matching.neighbors = options.neighbors;
   const detail::Stopwatch stopwatch;
+  prepared.matches = registration.match(prepared.source, prepared.target, matching);
   prepared.correspondences =
-      toCorrespondences(prepared.source,
-                        prepared.target,
-                        registration.match(prepared.source, prepared.target, matching));
+      toCorrespondences(prepared.source, prepared.target, prepared.matches);
   prepared.times.matching = stopwatch.milliseconds();
   return prepared;
 }
@@ -122,7 +122,8 @@ evaluatePair(std::size_t number,
   record.correspondences = prepared.correspondences.size();
   record.inlier_ratio =
       inlierRatio(prepared.correspondences, truth, job.parameters.inlier_distance);
-  const Problem problem{prepared.correspondences, prepared.source, prepared.target};
+  const Problem problem{
+      prepared.correspondences, prepared.matches, prepared.source, prepared.target};
   std::vector<Record> records;
   for (const NamedMethod& method : methods) {
     record.method = method.name;

@@ -107,6 +107,7 @@ FlashRegistration<PointSource, PointTarget, FeatureT>::pairOptions() const
     options.inlier_distance = static_cast<float>(corr_dist_threshold_);
   options.neighbors = static_cast<std::size_t>(k_correspondences_);
   options.cloud_check = cloud_check_;
+  options.second_look = second_look_;
   return options;
 }
 

@@ -18,6 +18,10 @@ constexpr float MIN_COSINE = 0.5f;
  * normal: the surface itself is not free space. */
 constexpr float TOUCHING = 1;
 
+/** \brief How far before a surface is empty where nothing but its normals is known, in
+ * spacings: somebody looked at it, but who knows from where. */
+constexpr float BEFORE = 6;
+
 /** \brief Sums over the points of one cloud. */
 struct Sums {
   double matched = 0, contradicted = 0;
@@ -28,9 +32,24 @@ struct Sums {
 
 /** \brief What counts as what; lengths in the unit of the clouds. */
 struct Limits {
-  float match, touch, margin;
+  float match, touch, margin, before;
   bool oriented;
+  /** \brief What is known to be empty is what is just before the surfaces. */
+  bool by_normals;
 };
+
+/** \brief Whether there can be nothing at a place, as it is before a surface that was seen,
+ * and near to it. */
+bool
+isBefore(const Surface& surface, const Eigen::Vector3f& place, const Limits& limits)
+{
+  const int near = surface.around.find(place);
+  if (near < 0)
+    return false;
+  const Eigen::Vector3f offset = place - surface.points[near];
+  return surface.normals[near].dot(offset) > limits.match &&
+         offset.squaredNorm() < limits.before * limits.before;
+}
 
 Sums
 sumUp(const Samples& from,
@@ -66,10 +85,18 @@ sumUp(const Samples& from,
           sums.squares += off * off;
           continue;
         }
+        // A surface that was seen from its other side.
+        if (limits.by_normals && squared < limits.match * limits.match) {
+          sums.contradicted += cosine < -MIN_COSINE ? 1 : 0;
+          continue;
+        }
         if (squared < limits.touch * limits.touch)
           continue;
       }
-      sums.contradicted += to.free_space.contains(place, limits.margin) ? 1 : 0;
+      const bool is_empty = limits.by_normals
+                                ? isBefore(to, place, limits)
+                                : to.free_space.contains(place, limits.margin);
+      sums.contradicted += is_empty ? 1 : 0;
     }
   }
   return sums;
@@ -145,8 +172,12 @@ Look::operator()(const Pose& pose) const
 {
   const RigidFloat forward = toRigidFloat(pose);
   const float spacing = clouds_.spacing;
-  const Limits limits{
-      tolerance_ * spacing, TOUCHING * spacing, margin_ * spacing, clouds_.oriented()};
+  const Limits limits{tolerance_ * spacing,
+                      TOUCHING * spacing,
+                      margin_ * spacing,
+                      BEFORE * spacing,
+                      clouds_.oriented(),
+                      clouds_.belief == Belief::Normals};
   const Sums there = sumUp(source_, clouds_.target, forward, limits);
   const Sums back = sumUp(target_, clouds_.source, inverse(forward), limits);
   const std::size_t sources = clouds_.source.points.size();

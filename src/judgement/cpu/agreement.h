@@ -11,27 +11,42 @@
 
 namespace pcl_flashreg {
 
+/** \brief What is believed of how clouds were seen. */
+enum class Belief {
+  /** \brief Viewpoints, where they are known. */
+  Viewpoints,
+  /** \brief Normals point to the side from which a surface was seen, and just before it there
+   * is nothing. */
+  Normals,
+  /** \brief Nothing: normals have no sign. */
+  Nothing
+};
+
 /** \brief Two clouds in the centred frames; whoever made them keeps them. */
 struct SurfacePair {
   const Surface& source;
   const Surface& target;
   /** \brief Distance of neighbouring points. */
   float spacing;
-  /** \brief Whether viewpoints count, where they are known. */
-  bool use_viewpoints = true;
+  Belief belief = Belief::Viewpoints;
 
   /** \brief Whether the normals of both point to a sensor, so that their sign counts. */
   bool
   oriented() const
   {
-    return use_viewpoints && source.free_space.known() && target.free_space.known();
+    return belief == Belief::Normals ||
+           (belief == Belief::Viewpoints && source.free_space.known() &&
+            target.free_space.known());
   }
 
-  /** \brief Whether the viewpoint of one is known, so that poses can be contradicted. */
+  /** \brief Whether poses can be contradicted: the viewpoint of one cloud is known, or that
+   * nothing is before the surfaces. */
   bool
   seeing() const
   {
-    return use_viewpoints && (source.free_space.known() || target.free_space.known());
+    return belief == Belief::Normals ||
+           (belief == Belief::Viewpoints &&
+            (source.free_space.known() || target.free_space.known()));
   }
 };
 

@@ -28,6 +28,9 @@ Surface::build(const CloudView<Scalar>& cloud, const Vec3& centre, float spacing
         points, (*cloud.viewpoint - origin).template cast<float>(), spacing);
   else
     free_space.clear();
+  constexpr float AROUND = 3;
+  around.build(free_space.known() ? std::vector<Eigen::Vector3f>() : points,
+               AROUND * spacing);
 }
 
 template void

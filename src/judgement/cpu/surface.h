@@ -19,6 +19,8 @@ struct Surface {
   std::vector<Eigen::Vector3f> points;
   std::vector<Eigen::Vector3f> normals;
   NearestPointGrid nearest;
+  /** \brief The same of wider cells, three spacings; empty where the viewpoint is known. */
+  NearestPointGrid around;
   FreeSpace free_space;
 
   /** \param[in] centre what is subtracted from every coordinate */
@@ -31,7 +33,7 @@ struct Surface {
   bytes() const
   {
     return (points.capacity() + normals.capacity()) * sizeof(Eigen::Vector3f) +
-           nearest.bytes() + free_space.bytes();
+           nearest.bytes() + around.bytes() + free_space.bytes();
   }
 };
 
