@@ -383,7 +383,10 @@ TEST(Estimator, ReportsItsTimes)
   const StageTimings t = Estimator().estimate(made.view()).timings_ms;
   double sum = 0;
   for (const Stage& stage : STAGES) {
-    EXPECT_GT(t.*stage.milliseconds, 0) << stage.name;
+    // It has no scans to look at again.
+    if (stage.milliseconds != &StageTimings::second_look) {
+      EXPECT_GT(t.*stage.milliseconds, 0) << stage.name;
+    }
     sum += t.*stage.milliseconds;
   }
   EXPECT_LE(sum, t.total * (1 + 1e-9));

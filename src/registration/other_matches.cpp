@@ -30,9 +30,7 @@ Correspondences
 OtherMatches::forth(const Scan& source, const Scan& target) const
 {
   return toCorrespondences(
-      source,
-      target,
-      matchScans(source, target, options_, workers_.search.pool()));
+      source, target, matchScans(source, target, options_, workers_.search.pool()));
 }
 
 Correspondences

@@ -184,8 +184,11 @@ PoseSearch::askClouds(const JudgingClouds& clouds,
   if (second_look &&
       confidenceOfClouds(findings.evidence) < parameters.min_confidence) {
     lookAgain(second_look, parameters, check);
-    findings = check.judge();
-    findings.evidence.second_look = true;
+    CloudFindings again = check.judge();
+    again.evidence.second_look = true;
+    // Of many poses that nothing speaks for the best is none better than the first.
+    if (confidenceOfClouds(again.evidence) > confidenceOfClouds(findings.evidence))
+      findings = std::move(again);
     clock.finish(&StageTimings::second_look);
   }
   if (findings.evidence.inliers < 3)
