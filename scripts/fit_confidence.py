@@ -68,6 +68,12 @@ def features_without_viewpoints(row):
     return features_of_clouds(row)[2:]
 
 
+def features_of_sides(row):
+    # By its lead and hold, as what every pose needs has them, it is no better.
+    features = features_of_clouds(row)
+    return [features[i] for i in (0, 1, 2, 4, 6)]
+
+
 def logistic(x):
     return 1 / (1 + np.exp(-np.clip(x, -50, 50)))
 
@@ -103,7 +109,7 @@ MODELS = {
     "correspondences": (features_of_correspondences, needed_of_correspondences),
     "clouds with viewpoints": (features_of_clouds, needed_of_clouds),
     "clouds with one viewpoint": (features_without_viewpoints, needed_of_clouds),
-    "clouds without viewpoints": (features_of_clouds, needed_of_clouds),
+    "clouds without viewpoints": (features_of_sides, needed_of_clouds),
 }
 
 
