@@ -54,6 +54,15 @@ isHopeless(Evidence evidence)
   return confidenceOfClouds(evidence) < HOPELESS;
 }
 
+/** \brief Where no viewpoint is known, normals may still be right. */
+SurfacePair
+believed(SurfacePair clouds)
+{
+  if (!clouds.seeing())
+    clouds.belief = Belief::Normals;
+  return clouds;
+}
+
 } // namespace
 
 /** \brief Poses before the clouds, which know where they were seen from, or don't. */
@@ -74,13 +83,15 @@ public:
   {
   }
 
-  /** \brief Takes up what is new at the end of a list. */
+  /** \brief Takes up what is new among the first so many of a list. */
   void
-  studyNew(const std::vector<Pose>& list)
+  studyNew(const std::vector<Pose>& list, std::size_t count)
   {
-    const std::size_t known = std::min(studied_, list.size());
-    studied_ = list.size();
-    study({list.begin() + static_cast<std::ptrdiff_t>(known), list.end()});
+    const auto at = [&](std::size_t i) {
+      return list.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    study({at(studied_), at(count)});
+    studied_ = count;
   }
 
   /** \brief There are more witnesses than before. */
@@ -258,15 +269,6 @@ private:
   std::size_t walked_from_ = NOWHERE;
 };
 
-/** \brief Where no viewpoint is known, normals may still be right. */
-static SurfacePair
-believed(SurfacePair clouds)
-{
-  if (!clouds.seeing())
-    clouds.belief = Belief::Normals;
-  return clouds;
-}
-
 CloudCheck::CloudCheck(const SurfacePair& clouds,
                        float inlier_distance,
                        bool give_up_early,
@@ -309,8 +311,7 @@ CloudCheck::judgeIn(std::unique_ptr<Court>& court,
   if (!court)
     court = std::make_unique<Court>(
         clouds, witnesses_, inlier_distance_, half_side_, pool_);
-  const std::size_t count = std::min(list_.size(), most_poses);
-  court->studyNew({list_.begin(), list_.begin() + static_cast<std::ptrdiff_t>(count)});
+  court->studyNew(list_, std::min(list_.size(), most_poses));
   return court->judge(give_up_early_);
 }
 

@@ -35,12 +35,12 @@ struct CloudFindings {
 
 /** \brief Asks the clouds which of many hypotheses is right.
  *
- * Where a viewpoint is known, all hypotheses are screened on a few points, and the
- * best again on more. The best dozen that differ, and the favourites, are moved onto the
- * target's surface and judged on all that is known: by (matched + 1 %) /
- * (contradicted + 1 %) * sqrt(support + 5), or without the denominator, if the viewpoints
- * are not known or not to be believed. Hypotheses may come in several lots, after each of
- * which judge() says which of all so far is right. The same on any number of threads.
+ * All hypotheses are screened on a few points, and the best again on more. The best dozen
+ * that differ, and the favourites, are moved onto the target's surface and judged on all
+ * that is known: by (matched + 1 %) / (contradicted + 1 %) * sqrt(support + 5), or without
+ * the denominator, where neither viewpoints nor the sides of surfaces are believed.
+ * Hypotheses may come in several lots, after each of which judge() says which of all so far
+ * is right. The same on any number of threads.
  */
 class CloudCheck {
 public:

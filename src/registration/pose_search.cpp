@@ -145,8 +145,8 @@ PoseSearch::lookAgain(const SecondLook& second_look,
     if (!other)
       return;
     if (others_.size() <= i)
-      others_.push_back(std::make_unique<Problem>());
-    Problem& problem = *others_[i];
+      others_.emplace_back();
+    Problem& problem = others_[i];
     prepareLike(preparation_,
                 other->correspondences.view(),
                 static_cast<std::size_t>(parameters.max_correspondences),

@@ -11,6 +11,7 @@
 #include <pcl_flashreg/estimator.h>
 #include <pcl_flashreg/pair_registration.h>
 
+#include <deque>
 #include <functional>
 #include <variant>
 
@@ -123,8 +124,8 @@ private:
   Trace* trace_ = nullptr;
   Preparation preparation_;
   Problem problem_, leftover_;
-  /** \brief Of a second look. */
-  std::vector<std::unique_ptr<Problem>> others_;
+  /** \brief Of a second look; they stay where they are when there are more. */
+  std::deque<Problem> others_;
   Surface source_surface_, target_surface_;
 };
 

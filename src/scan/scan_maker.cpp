@@ -68,6 +68,19 @@ keepRows(const PreparedInput& input, Scan::Data& data)
   }
 }
 
+/** \brief Keypoints and what was computed of them; descriptors of the caller's stay. */
+void
+takeKeypoints(DescribedCloud keypoints, ScanContent content, Scan::Data& data)
+{
+  data.points = std::move(keypoints.points);
+  data.normals = std::move(keypoints.normals);
+  data.curvatures = std::move(keypoints.curvatures);
+  if (content != ScanContent::Descriptors)
+    return;
+  data.descriptors = std::move(keypoints.descriptors);
+  data.dimension = keypoints.features().dimension;
+}
+
 } // namespace
 
 template <typename Scalar>
@@ -175,14 +188,7 @@ ScanMaker::make(const PreparedInput& input,
   timings.normals += turning;
   if (content == ScanContent::Descriptors)
     describeSurface(stages_, parameters, timings);
-  DescribedCloud keypoints = stages_.takeResult(content, are_keypoints);
-  data->points = std::move(keypoints.points);
-  data->normals = std::move(keypoints.normals);
-  data->curvatures = std::move(keypoints.curvatures);
-  if (content == ScanContent::Descriptors) {
-    data->descriptors = std::move(keypoints.descriptors);
-    data->dimension = keypoints.features().dimension;
-  }
+  takeKeypoints(stages_.takeResult(content, are_keypoints), content, *data);
   return {data, seen.from, seen.source};
 }
 
@@ -200,15 +206,12 @@ ScanMaker::coarser(const Scan& scan, double factor)
               ScanContent::Descriptors,
               timings);
   describeSurface(stages_, parameters, timings);
-  DescribedCloud keypoints = stages_.takeResult(ScanContent::Descriptors, false);
   const auto data = std::make_shared<Scan::Data>();
   data->spacing = resolution;
   data->shift = scan.shift();
-  data->points = std::move(keypoints.points);
-  data->normals = std::move(keypoints.normals);
-  data->curvatures = std::move(keypoints.curvatures);
-  data->descriptors = std::move(keypoints.descriptors);
-  data->dimension = keypoints.features().dimension;
+  takeKeypoints(stages_.takeResult(ScanContent::Descriptors, false),
+                ScanContent::Descriptors,
+                *data);
   return {data, Eigen::Vector3d::Zero(), ViewpointSource::Unknown};
 }
 

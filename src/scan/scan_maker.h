@@ -63,7 +63,7 @@ public:
        FeatureTimings& timings);
 
   /** \brief A scan with descriptors as it would be seen at a coarser resolution: from its
-   * keypoints and their normals. In its frame, and seen from where it was.
+   * keypoints and their normals, for matching alone: it knows no viewpoint. In its frame.
    * \param[in] factor by which it is coarser, > 1 */
   Scan
   coarser(const Scan& scan, double factor);

@@ -29,8 +29,8 @@ Surface::build(const CloudView<Scalar>& cloud, const Vec3& centre, float spacing
   else
     free_space.clear();
   constexpr float AROUND = 3;
-  around.build(free_space.known() ? std::vector<Eigen::Vector3f>() : points,
-               AROUND * spacing);
+  const std::vector<Eigen::Vector3f> none;
+  around.build(free_space.known() ? none : points, AROUND * spacing);
 }
 
 template void
