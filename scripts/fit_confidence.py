@@ -4,9 +4,9 @@
 """Fits the coefficients of src/judgement/confidence.cpp to rows of pcl_flashreg_evaluate.
 
 Reads CSV files of the methods flashreg_fast, flashreg, flashreg_source_viewpoint and
-flashreg_no_viewpoint. Four logistic regressions: correspondences alone, clouds with both
-viewpoints, with one, without (where sides of surfaces are believed), each times what every
-pose needs. Cross-validated by scene: a
+flashreg_no_viewpoint. Logistic regressions: correspondences alone, clouds with both
+viewpoints, with one (and the sides of the other one's surfaces, or not), with sides alone,
+each times what every pose needs. Cross-validated by scene: a
 pair is judged by coefficients that no pair with a cloud of its source's scene had a part in.
 Needs numpy; --plot also matplotlib.
 
@@ -108,6 +108,7 @@ def needed_of_clouds(row):
 MODELS = {
     "correspondences": (features_of_correspondences, needed_of_correspondences),
     "clouds with viewpoints": (features_of_clouds, needed_of_clouds),
+    "clouds with one viewpoint and sides": (features_of_clouds, needed_of_clouds),
     "clouds with one viewpoint": (features_without_viewpoints, needed_of_clouds),
     "clouds without viewpoints": (features_of_sides, needed_of_clouds),
 }
@@ -116,10 +117,10 @@ MODELS = {
 def model_of(row):
     if not row["has_clouds"]:
         return "correspondences"
-    if row["has_sides"]:
-        return "clouds without viewpoints"
     if not row["has_viewpoints"]:
-        return "clouds that nothing is believed of"
+        return "clouds without viewpoints" if row["has_sides"] else "nothing believed"
+    if row["has_sides"]:
+        return "clouds with one viewpoint and sides"
     one = row["method"] == METHOD_OF["clouds with one viewpoint"]
     return "clouds with one viewpoint" if one else "clouds with viewpoints"
 
@@ -127,10 +128,11 @@ def model_of(row):
 METHOD_OF = {
     "correspondences": "flashreg_fast",
     "clouds with viewpoints": "flashreg",
+    "clouds with one viewpoint and sides": "flashreg_source_viewpoint",
     "clouds with one viewpoint": "flashreg_source_viewpoint",
     "clouds without viewpoints": "flashreg_no_viewpoint",
     # Chosen by what it says: no fit to these rows would be fair.
-    "clouds that nothing is believed of": None,
+    "nothing believed": None,
 }
 
 

@@ -79,6 +79,7 @@ struct Corner {
   view(bool with_viewpoint = true) const
   {
     CloudView<double> view{xyz.data(), normals.data(), xyz.size() / 3, std::nullopt};
+    view.normals_oriented = true;
     if (with_viewpoint)
       view.viewpoint = viewpoint;
     return view;
@@ -192,11 +193,34 @@ TEST(CloudAgreement, TellsAMatchFromAContradiction)
   EXPECT_EQ(Look(unseen, 1000, 1.5f, 3)(slid).contradicted, 0);
 
   // Their normals alone tell that just before a wall there is nothing ...
-  const SurfacePair sides{blind, blind_too, SPACING, Belief::Normals};
+  const SurfacePair sides{blind, blind_too, SPACING, Belief::Sides};
   const Look by_sides(sides, 1000, 1.5f, 3);
   EXPECT_EQ(by_sides(toPose(Eigen::Isometry3d::Identity())).contradicted, 0);
   EXPECT_GT(by_sides(toPose(motion(0, {0.2, 0, 0}))).contradicted, 0.05);
   EXPECT_LT(by_sides(toPose(motion(0, {-20, 0, 0}))).contradicted, 0.01) << "far away";
+
+  // ... as those of the one cloud do whose viewpoint is not known, beside the other's ...
+  const SurfacePair one_sees{blind, target, SPACING, Belief::Sides};
+  const Look from_one(one_sees, 1000, 1.5f, 3);
+  // Its wall would be behind the other one's, out of sight, which is before it.
+  const Pose behind = toPose(motion(0, {-0.2, 0, 0}));
+  EXPECT_GT(from_one(toPose(Eigen::Isometry3d::Identity())).matched, 0.9);
+  EXPECT_GT(from_one(behind).contradicted, 0.05);
+  CloudView<double> of_any_sign = corner.view(false);
+  of_any_sign.normals_oriented = false;
+  const Surface unsigned_blind = surfaceOf(of_any_sign);
+  const SurfacePair one_sees_alone{unsigned_blind, target, SPACING, Belief::Sides};
+  EXPECT_EQ(Look(one_sees_alone, 1000, 1.5f, 3)(behind).contradicted, 0);
+  // ... unless it is so large that no one place can have seen it.
+  Corner many(3);
+  for (int copy = 0; copy < 3; ++copy) {
+    many.xyz.insert(many.xyz.end(), corner.xyz.begin(), corner.xyz.end());
+    many.normals.insert(
+        many.normals.end(), corner.normals.begin(), corner.normals.end());
+  }
+  const Surface map = surfaceOf(many.view(false));
+  EXPECT_TRUE(one_sees.hasSides());
+  EXPECT_FALSE((SurfacePair{map, target, SPACING, Belief::Sides}.hasSides()));
 
   // Turned over, the floor lies on itself, but faces the other way.
   Eigen::Isometry3d over = Eigen::Isometry3d::Identity();
@@ -204,7 +228,7 @@ TEST(CloudAgreement, TellsAMatchFromAContradiction)
                       .toRotationMatrix();
   over.translation().y() = 2;
   EXPECT_LT(look(toPose(over)).matched, 0.1);
-  // ... and which side of it was seen, which none of them tells if nothing is believed.
+  // They tell, too, which side of it was seen; nothing does if nothing is believed.
   EXPECT_GT(by_sides(toPose(over)).contradicted, 0.2);
   const SurfacePair nothing{blind, blind_too, SPACING, Belief::Nothing};
   const CloudAgreement turned = Look(nothing, 1000, 1.5f, 3)(toPose(over));
@@ -269,7 +293,7 @@ TEST(Walk, IsAtAnotherPoseFromNineSpacingsOn)
       EXPECT_LE(walk.stops.front().way, -walk.far);
       EXPECT_GE(walk.stops.back().way, walk.far);
       // A wall alone says nearly the same from elsewhere, a corner does not.
-      EXPECT_EQ(walk.rise(true) > -0.5, walls == 1) << walk.rise(true);
+      EXPECT_EQ(walk.rise() > -0.5, walls == 1) << walk.rise();
     }
   }
 }

@@ -414,7 +414,7 @@ TEST_F(ScanFile, HasLittleEndianNumbers)
     return static_cast<std::uint64_t>(word);
   };
   EXPECT_EQ(bytes.substr(12, 4), "\x04\x03\x02\x01");
-  EXPECT_EQ(number(8, 4), 1u) << "version";
+  EXPECT_EQ(number(8, 4), 2u) << "version";
   EXPECT_EQ(number(16, 8), scan.size());
   EXPECT_EQ(number(24, 8), scan.features().dimension);
   EXPECT_EQ(number(40, 8), bits(V)) << "spacing";
@@ -461,8 +461,8 @@ TEST_F(ScanFile, OfAnotherKindOrVersionIsRefused)
   EXPECT_NE(complaintOf("# .PCD v0.7 - Point Cloud Data file format").find("no scan"),
             std::string::npos);
   std::string newer = scan().serialize();
-  newer[8] = 2;
-  EXPECT_NE(complaintOf(newer).find("format 2"), std::string::npos);
+  newer[8] = 3;
+  EXPECT_NE(complaintOf(newer).find("format 3"), std::string::npos);
   std::string swapped = scan().serialize();
   std::reverse(swapped.begin() + 12, swapped.begin() + 16);
   EXPECT_NE(complaintOf(swapped).find("byte order"), std::string::npos);

@@ -142,6 +142,8 @@ TEST(Viewpoint, OfAMergedMapIsNone)
   const Seen merged(map, Eigen::Isometry3d::Identity(), Eigen::Vector3d(60, 20, 0));
   EXPECT_FALSE(merged.scan().viewpoint());
   EXPECT_EQ(merged.scan().viewpointSource(), ViewpointSource::Unknown);
+  EXPECT_FALSE(merged.scan().normalsOriented());
+  EXPECT_FALSE(Scan::deserialize(merged.scan().serialize()).normalsOriented());
 }
 
 TEST(Viewpoint, IsNotLookedForWhereNobodyStatedOne)
@@ -152,6 +154,8 @@ TEST(Viewpoint, IsNotLookedForWhereNobodyStatedOne)
   const Scan scan = PairRegistration(BackendKind::Cpu, 1).makeScan(input, V);
   EXPECT_EQ(scan.viewpointSource(), ViewpointSource::Unknown);
   // Nor are normals turned to where nobody was.
+  EXPECT_TRUE(scan.normalsOriented());
+  EXPECT_TRUE(Scan::deserialize(scan.serialize()).normalsOriented());
   const Eigen::Vector3d sensor = frameAt({40, 0, 0}) * HERE;
   std::size_t turned = 0;
   for (std::size_t i = 0; i < scan.size(); ++i) {

@@ -104,8 +104,8 @@ struct Evidence {
   /** \brief Whether viewpoints are known and not believed: without them the clouds are more
    * certain, of another pose perhaps. */
   bool overruled_viewpoints = false;
-  /** \brief Whether no viewpoint is known, but the sides of the surfaces that normals point to
-   * are believed to be those that were seen. */
+  /** \brief Whether the viewpoint of one cloud, or of both, is not known, but the sides of
+   * its surfaces that normals point to are believed to be those that were seen. */
   bool has_sides = false;
   /** \brief Whether these are not believed: without them the clouds are more certain. */
   bool overruled_sides = false;

@@ -84,6 +84,11 @@ public:
   const float*
   normals() const;
 
+  /** \brief Whether normals point to the side from which the surfaces were seen: they were
+   * given, or one place sees nearly all of the points. Of a map of several rooms, none does. */
+  bool
+  normalsOriented() const;
+
   /** \brief Of each keypoint the smallest eigenvalue of the covariance of its neighbours
    * over their sum; 0 where the normal was given. */
   const float*

@@ -54,15 +54,6 @@ isHopeless(Evidence evidence)
   return confidenceOfClouds(evidence) < HOPELESS;
 }
 
-/** \brief Where no viewpoint is known, normals may still be right. */
-SurfacePair
-believed(SurfacePair clouds)
-{
-  if (!clouds.seeing())
-    clouds.belief = Belief::Normals;
-  return clouds;
-}
-
 } // namespace
 
 /** \brief Poses before the clouds, which know where they were seen from, or don't. */
@@ -78,8 +69,8 @@ public:
         inlier_distance_(inlier_distance),
         half_side_(half_side),
         pool_(pool),
-        look_(clouds, POINTS, TOLERANCE, MARGIN),
-        look_closely_(clouds, POINTS_FOR_BEST, TOLERANCE, MARGIN)
+        look_(clouds_, POINTS, TOLERANCE, MARGIN),
+        look_closely_(clouds_, POINTS_FOR_BEST, TOLERANCE, MARGIN)
   {
   }
 
@@ -107,23 +98,22 @@ public:
   CloudFindings
   judge(bool give_up_early)
   {
-    const bool with_viewpoints = clouds_.seeing();
-    std::size_t best = bestOf(with_viewpoints);
+    std::size_t best = bestOf();
     if (give_up_early) {
-      const CloudFindings so_far = findings(with_viewpoints);
+      const CloudFindings so_far = findings();
       if (isHopeless(so_far.evidence))
         return so_far;
     }
     walk(best);
     for (int walks = 1; walks < WALKS; ++walks) {
-      study(peaksOf(walks_, with_viewpoints, TAKEN_UP));
-      const std::size_t now = bestOf(with_viewpoints);
+      study(peaksOf(walks_, TAKEN_UP));
+      const std::size_t now = bestOf();
       if (now == best)
         break;
       best = now;
       walk(best);
     }
-    return findings(with_viewpoints);
+    return findings();
   }
 
 private:
@@ -152,10 +142,9 @@ private:
 
   /** \brief What speaks for a pose, as a logarithm. */
   static double
-  weightOf(const CheckedPose& pose, bool with_viewpoints)
+  weightOf(const CheckedPose& pose)
   {
-    return evidenceOf(pose.agreement, with_viewpoints) +
-           0.5 * std::log(pose.support + 5.0);
+    return evidenceOf(pose.agreement) + 0.5 * std::log(pose.support + 5.0);
   }
 
   /** \brief How much of a rival another pose is: 1 for one that explains as much.
@@ -163,30 +152,43 @@ private:
    * Where a place looks the same from elsewhere, the clouds say so; more correspondences
    * then speak for one pose than for another because the scans' patterns of points meet
    * there. A few dozen for the other one are enough, and the more there are, the less
-   * the clouds have to agree. */
-  static double
-  loudnessOf(const CheckedPose& rival, const CheckedPose& pose, bool with_viewpoints)
+   * the clouds have to agree. Sides that may be turned the wrong way don't silence it. */
+  double
+  loudnessOf(const CheckedPose& rival, const CheckedPose& pose) const
   {
-    constexpr double BY_ALL = 4, BY_CLOUDS = 8, LEAST_BY_CLOUDS = 3, A_FEW_DOZEN = 60;
-    const double lead =
-        weightOf(pose, with_viewpoints) - weightOf(rival, with_viewpoints);
-    const double lead_by_clouds = evidenceOf(pose.agreement, with_viewpoints) -
-                                  evidenceOf(rival.agreement, with_viewpoints);
-    const double dozens = rival.support / A_FEW_DOZEN;
-    const double steepness =
-        std::clamp(BY_CLOUDS / std::max(dozens, 1e-3), LEAST_BY_CLOUDS, BY_CLOUDS);
+    constexpr double BY_ALL = 4;
+    const double lead = weightOf(pose) - weightOf(rival);
+    const double lead_by_clouds =
+        evidenceOf(pose.agreement) - evidenceOf(rival.agreement);
+    const double loudness = std::max(std::exp(-BY_ALL * std::max(0.0, lead)),
+                                     loudnessByClouds(rival.support, lead_by_clouds));
+    if (!clouds_.mayRepeat())
+      return loudness;
+    const SurfacePair no_sides{
+        clouds_.source, clouds_.target, clouds_.spacing, Belief::Viewpoints};
+    const Look look(no_sides, POINTS, TOLERANCE, MARGIN);
+    return std::max(
+        loudness,
+        loudnessByClouds(rival.support,
+                         evidenceOf(look(pose.pose)) - evidenceOf(look(rival.pose))));
+  }
+
+  static double
+  loudnessByClouds(double support, double lead)
+  {
+    constexpr double MOST = 8, LEAST = 3, A_FEW_DOZEN = 60;
+    const double dozens = support / A_FEW_DOZEN;
+    const double steepness = std::clamp(MOST / std::max(dozens, 1e-3), LEAST, MOST);
     const double supported = 1 - 1 / (1 + std::pow(dozens, 4));
-    return std::max(std::exp(-BY_ALL * std::max(0.0, lead)),
-                    supported * std::exp(-steepness * std::max(0.0, lead_by_clouds)));
+    return supported * std::exp(-steepness * std::max(0.0, lead));
   }
 
   std::size_t
-  bestOf(bool with_viewpoints) const
+  bestOf() const
   {
     std::size_t best = 0;
     for (std::size_t i = 1; i < checked_.size(); ++i)
-      if (weightOf(checked_[i], with_viewpoints) >
-          weightOf(checked_[best], with_viewpoints))
+      if (weightOf(checked_[i]) > weightOf(checked_[best]))
         best = i;
     return best;
   }
@@ -210,11 +212,11 @@ private:
 
   /** \brief One of each, the best first. */
   std::vector<CheckedPose>
-  distinct(bool with_viewpoints) const
+  distinct() const
   {
     std::vector<CheckedPose> sorted = checked_;
     std::stable_sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) {
-      return weightOf(a, with_viewpoints) > weightOf(b, with_viewpoints);
+      return weightOf(a) > weightOf(b);
     });
     std::vector<CheckedPose> poses;
     for (const CheckedPose& pose : sorted)
@@ -226,37 +228,35 @@ private:
   }
 
   CloudFindings
-  findings(bool with_viewpoints) const
+  findings() const
   {
     CloudFindings findings;
-    findings.poses = distinct(with_viewpoints);
+    findings.poses = distinct();
     const CheckedPose& first = findings.poses.front();
     Evidence& evidence = findings.evidence;
     evidence.inliers = first.support;
     evidence.has_clouds = true;
-    evidence.has_viewpoints = clouds_.belief == Belief::Viewpoints;
-    evidence.has_sides = clouds_.belief == Belief::Normals;
-    evidence.one_viewpoint = evidence.has_viewpoints && !clouds_.oriented();
+    evidence.has_viewpoints = clouds_.viewpoints() > 0;
+    evidence.has_sides = clouds_.hasSides();
+    evidence.one_viewpoint = clouds_.viewpoints() == 1;
     evidence.agreement = look_closely_(first.pose);
     evidence.lead = MAX_LEAD;
     for (std::size_t i = 1; i < findings.poses.size(); ++i) {
       const CheckedPose& other = findings.poses[i];
-      evidence.lead =
-          std::min(evidence.lead,
-                   weightOf(first, with_viewpoints) - weightOf(other, with_viewpoints));
-      evidence.rivals += loudnessOf(other, first, with_viewpoints);
+      evidence.lead = std::min(evidence.lead, weightOf(first) - weightOf(other));
+      evidence.rivals += loudnessOf(other, first);
     }
     evidence.hold = walks_.empty() ? 0 : MAX_HOLD;
     for (const Walk& walk : walks_)
-      evidence.hold = std::min(evidence.hold, -walk.rise(with_viewpoints));
+      evidence.hold = std::min(evidence.hold, -walk.rise());
     evidence.stiffness = walks_.empty() ? 0 : walks_.front().motion.stiffness;
-    findings.free_motions = freeMotionsOf(walks_, with_viewpoints);
+    findings.free_motions = freeMotionsOf(walks_);
     return findings;
   }
 
   static constexpr std::size_t NOWHERE = ~std::size_t{0};
 
-  const SurfacePair& clouds_;
+  const SurfacePair clouds_;
   const std::vector<const Problem*>& witnesses_;
   float inlier_distance_;
   double half_side_;
@@ -273,24 +273,38 @@ CloudCheck::CloudCheck(const SurfacePair& clouds,
                        float inlier_distance,
                        bool give_up_early,
                        ThreadPool& pool)
-    : clouds_(believed(clouds)),
-      blind_clouds_{clouds.source, clouds.target, clouds.spacing, Belief::Nothing},
+    : clouds_{clouds.source, clouds.target, clouds.spacing, Belief::Sides},
       give_up_early_(give_up_early),
       half_side_(halfSideOf(clouds.source)),
       pool_(pool),
       inlier_distance_(inlier_distance)
 {
+  if (clouds_.hasSides() && clouds_.viewpoints() > 0)
+    beliefs_.push_back(Belief::Viewpoints);
+  if (clouds_.seeing())
+    beliefs_.push_back(Belief::Nothing);
 }
 
 CloudCheck::~CloudCheck() = default;
+
+CloudCheck::Court&
+CloudCheck::court(std::size_t number)
+{
+  if (number == courts_.size()) {
+    const SurfacePair clouds{
+        clouds_.source, clouds_.target, clouds_.spacing, beliefs_[number]};
+    courts_.push_back(std::make_unique<Court>(
+        clouds, witnesses_, inlier_distance_, half_side_, pool_));
+  }
+  return *courts_[number];
+}
 
 void
 CloudCheck::addWitnesses(const Problem& correspondences)
 {
   witnesses_.push_back(&correspondences);
-  for (Court* court : {seeing_.get(), blind_.get()})
-    if (court)
-      court->countAgain();
+  for (const auto& court : courts_)
+    court->countAgain();
 }
 
 void
@@ -304,15 +318,16 @@ CloudCheck::addPoses(const std::vector<Pose>& hypotheses,
 }
 
 CloudFindings
-CloudCheck::judgeIn(std::unique_ptr<Court>& court,
-                    const SurfacePair& clouds,
-                    std::size_t most_poses)
+CloudCheck::judgeIn(std::size_t number)
 {
-  if (!court)
-    court = std::make_unique<Court>(
-        clouds, witnesses_, inlier_distance_, half_side_, pool_);
-  court->studyNew(list_, std::min(list_.size(), most_poses));
-  return court->judge(give_up_early_);
+  const std::size_t most =
+      give_up_early_ && number > 0 ? FAVOURITES_IN_A_HURRY : list_.size();
+  court(number).studyNew(list_, std::min(list_.size(), most));
+  CloudFindings findings = court(number).judge(give_up_early_);
+  Evidence& evidence = findings.evidence;
+  evidence.overruled_viewpoints = clouds_.viewpoints() > 0 && !evidence.has_viewpoints;
+  evidence.overruled_sides = clouds_.hasSides() && !evidence.has_sides;
+  return findings;
 }
 
 CloudFindings
@@ -320,17 +335,17 @@ CloudCheck::judge()
 {
   if (clouds_.source.points.empty() || clouds_.target.points.empty() || list_.empty())
     return {};
-  CloudFindings seeing = judgeIn(seeing_, clouds_, list_.size());
-  if (confidenceOfClouds(seeing.evidence) > NOT_TO_OVERRULE)
-    return seeing;
-  CloudFindings blind = judgeIn(
-      blind_, blind_clouds_, give_up_early_ ? FAVOURITES_IN_A_HURRY : list_.size());
-  (clouds_.belief == Belief::Viewpoints ? blind.evidence.overruled_viewpoints
-                                        : blind.evidence.overruled_sides) = true;
-  // What is more certain without the viewpoints says that they are wrong.
-  const double enough =
-      std::max(LEAST_TO_OVERRULE, confidenceOfClouds(seeing.evidence));
-  return confidenceOfClouds(blind.evidence) > enough ? blind : seeing;
+  CloudFindings findings = judgeIn(0);
+  for (std::size_t i = 1; i < beliefs_.size(); ++i) {
+    const double before = confidenceOfClouds(findings.evidence);
+    if (before > NOT_TO_OVERRULE)
+      break;
+    // What is more certain without the viewpoints says that they are wrong.
+    CloudFindings others = judgeIn(i);
+    if (confidenceOfClouds(others.evidence) > std::max(LEAST_TO_OVERRULE, before))
+      findings = std::move(others);
+  }
+  return findings;
 }
 
 } // namespace pcl_flashreg

@@ -71,12 +71,14 @@ public:
 private:
   class Court;
 
-  CloudFindings
-  judgeIn(std::unique_ptr<Court>& court,
-          const SurfacePair& clouds,
-          std::size_t most_poses);
+  /** \brief The one of a belief, opened when it is asked for; they are asked in order. */
+  Court&
+  court(std::size_t number);
 
-  const SurfacePair clouds_, blind_clouds_;
+  CloudFindings
+  judgeIn(std::size_t number);
+
+  const SurfacePair clouds_;
   bool give_up_early_;
   double half_side_ = 0;
   ThreadPool& pool_;
@@ -84,7 +86,9 @@ private:
   std::vector<const Problem*> witnesses_;
   /** \brief All that passed, in the order in which they came. */
   std::vector<Pose> list_;
-  std::unique_ptr<Court> seeing_, blind_;
+  /** \brief Each is less than the one before it, and counts where that one leaves doubt. */
+  std::vector<Belief> beliefs_{Belief::Sides};
+  std::vector<std::unique_ptr<Court>> courts_;
 };
 
 } // namespace pcl_flashreg

@@ -93,6 +93,17 @@ fromCloudsWithOneViewpoint(const Evidence& e)
 }
 
 double
+fromCloudsWithOneViewpointAndSides(const Evidence& e)
+{
+  const double matched = e.agreement.matched + 0.01;
+  return logistic(-1.46 + 1.63 * std::log(matched) -
+                  0.79 * std::log(e.agreement.contradicted / matched + 0.01) +
+                  1.85 * std::log(e.inliers + 5) +
+                  1.19 * std::log(e.stiffness + 0.001) + 0.36 * holdOf(e) -
+                  2.33 * e.agreement.residual);
+}
+
+double
 fromCloudsWithSides(const Evidence& e)
 {
   const double matched = e.agreement.matched + 0.01;
@@ -121,7 +132,8 @@ double
 fittedToClouds(const Evidence& e)
 {
   if (e.has_sides)
-    return fromCloudsWithSides(e);
+    return e.has_viewpoints ? fromCloudsWithOneViewpointAndSides(e)
+                            : fromCloudsWithSides(e);
   if (!e.has_viewpoints)
     return fromCloudsWithoutViewpoints(e);
   return e.one_viewpoint ? fromCloudsWithOneViewpoint(e) : fromClouds(e);

@@ -18,11 +18,11 @@ constexpr double FALL = 0.3;
 /** \brief How far along the stops, which go off the pose, a way is free. */
 template <typename Iterator>
 double
-freeWay(Iterator begin, Iterator end, double least, bool with_viewpoints)
+freeWay(Iterator begin, Iterator end, double least)
 {
   double way = 0;
   for (; begin != end; ++begin) {
-    if (evidenceOf(begin->agreement, with_viewpoints) < least)
+    if (evidenceOf(begin->agreement) < least)
       break;
     way = std::abs(begin->way);
   }
@@ -56,18 +56,16 @@ describe(const Motion& motion, double backward, double forward)
 } // namespace
 
 std::vector<FreeMotion>
-freeMotionsOf(const std::vector<Walk>& walks, bool with_viewpoints)
+freeMotionsOf(const std::vector<Walk>& walks)
 {
   std::vector<FreeMotion> motions;
   for (const Walk& walk : walks) {
-    const double least = evidenceOf(walk.start().agreement, with_viewpoints) - FALL;
+    const double least = evidenceOf(walk.start().agreement) - FALL;
     const auto middle =
         walk.stops.begin() + static_cast<std::ptrdiff_t>(walk.stops.size() / 2);
-    const double forward = freeWay(middle, walk.stops.end(), least, with_viewpoints);
-    const double backward = freeWay(std::make_reverse_iterator(middle + 1),
-                                    walk.stops.rend(),
-                                    least,
-                                    with_viewpoints);
+    const double forward = freeWay(middle, walk.stops.end(), least);
+    const double backward =
+        freeWay(std::make_reverse_iterator(middle + 1), walk.stops.rend(), least);
     // Coarse points are no smooth surface: a walk over them may find a slope that is none.
     if (std::max(forward, backward) >= walk.far ||
         walk.motion.stiffness < NEEDED_STIFFNESS)

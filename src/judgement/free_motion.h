@@ -13,6 +13,6 @@ namespace pcl_flashreg {
 
 /** \brief Result::free_motions, in the centred frame of the target. */
 std::vector<FreeMotion>
-freeMotionsOf(const std::vector<Walk>& walks, bool with_viewpoints);
+freeMotionsOf(const std::vector<Walk>& walks);
 
 } // namespace pcl_flashreg

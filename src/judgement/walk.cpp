@@ -47,13 +47,13 @@ planned(const Motion& motion, const Pose& pose, float spacing)
 } // namespace
 
 double
-Walk::rise(bool with_viewpoints) const
+Walk::rise() const
 {
   double highest = -std::numeric_limits<double>::infinity();
   for (const Stop& stop : stops)
     if (std::abs(stop.way) >= far)
-      highest = std::max(highest, evidenceOf(stop.agreement, with_viewpoints));
-  return highest - evidenceOf(start().agreement, with_viewpoints);
+      highest = std::max(highest, evidenceOf(stop.agreement));
+  return highest - evidenceOf(start().agreement);
 }
 
 std::vector<Walk>
@@ -75,7 +75,7 @@ walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool)
 }
 
 std::vector<Pose>
-peaksOf(const std::vector<Walk>& walks, bool with_viewpoints, std::size_t most)
+peaksOf(const std::vector<Walk>& walks, std::size_t most)
 {
   struct Peak {
     double height;
@@ -84,9 +84,8 @@ peaksOf(const std::vector<Walk>& walks, bool with_viewpoints, std::size_t most)
   std::vector<Peak> peaks;
   for (const Walk& walk : walks) {
     const auto height = [&](std::size_t i) {
-      return i < walk.stops.size()
-                 ? evidenceOf(walk.stops[i].agreement, with_viewpoints)
-                 : -std::numeric_limits<double>::infinity();
+      return i < walk.stops.size() ? evidenceOf(walk.stops[i].agreement)
+                                   : -std::numeric_limits<double>::infinity();
     };
     for (std::size_t i = 0; i < walk.stops.size(); ++i)
       if (std::abs(walk.stops[i].way) >= walk.far && height(i) >= height(i - 1) &&

@@ -34,7 +34,7 @@ struct Walk {
 
   /** \brief By how much what speaks for a pose rises above the start's, far off. */
   double
-  rise(bool with_viewpoints) const;
+  rise() const;
 };
 
 /** \brief Along the softest motion of a pose, and up to two others that are soft: where the
@@ -45,6 +45,6 @@ walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool);
 /** \brief Where clouds that were walked over say most, far off: at most `most` poses, the best
  * first. */
 std::vector<Pose>
-peaksOf(const std::vector<Walk>& walks, bool with_viewpoints, std::size_t most);
+peaksOf(const std::vector<Walk>& walks, std::size_t most);
 
 } // namespace pcl_flashreg

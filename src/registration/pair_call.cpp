@@ -35,6 +35,7 @@ JudgingCloud
 judgeFrom(const Scan& scan)
 {
   CloudView<float> view{scan.points(), scan.normals(), scan.size(), std::nullopt};
+  view.normals_oriented = scan.normalsOriented();
   if (scan.viewpoint())
     view.viewpoint = *scan.viewpoint() - scan.shift();
   return {view, {scan.shift().x(), scan.shift().y(), scan.shift().z()}};

@@ -38,6 +38,12 @@ Scan::normals() const
   return data_->normals.data();
 }
 
+bool
+Scan::normalsOriented() const
+{
+  return data_->normals_oriented;
+}
+
 const float*
 Scan::curvatures() const
 {

@@ -19,6 +19,8 @@ struct Scan::Data {
   /** \brief Values in a descriptor; 0 where there are none. */
   std::size_t dimension = 0;
   std::vector<std::int32_t> origins;
+  /** \brief See Scan::normalsOriented(). */
+  bool normals_oriented = false;
   double spacing = 0;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 

@@ -19,10 +19,13 @@ namespace pcl_flashreg {
 namespace {
 
 constexpr char MAGIC[8] = {'f', 'l', 's', 'c', 'a', 'n', '\r', '\n'};
-constexpr std::uint32_t VERSION = 1;
+constexpr std::uint32_t VERSION = 2;
 constexpr std::uint32_t BYTE_ORDER_MARK = 0x01020304;
 constexpr std::size_t ALIGNMENT = 64;
-constexpr std::uint64_t HAS_VIEWPOINT = 1, HAS_ORIGINS = 2, VIEWPOINT_FROM_POINTS = 4;
+constexpr std::uint64_t HAS_VIEWPOINT = 1, HAS_ORIGINS = 2, VIEWPOINT_FROM_POINTS = 4,
+                        NORMALS_ORIENTED = 8;
+constexpr std::uint64_t ALL_FLAGS =
+    HAS_VIEWPOINT | HAS_ORIGINS | VIEWPOINT_FROM_POINTS | NORMALS_ORIENTED;
 
 struct Header {
   char magic[8];
@@ -117,7 +120,7 @@ checkedHeader(std::string_view bytes)
                         ", this version of the library reads format " +
                         std::to_string(VERSION));
   const bool from_points = (header.flags & VIEWPOINT_FROM_POINTS) != 0;
-  if ((header.flags & ~(HAS_VIEWPOINT | HAS_ORIGINS | VIEWPOINT_FROM_POINTS)) != 0 ||
+  if ((header.flags & ~ALL_FLAGS) != 0 ||
       (from_points && (header.flags & HAS_VIEWPOINT) == 0))
     throw ScanFileError("is damaged: it claims to hold what no scan has");
   constexpr std::uint64_t MOST_ROWS = std::numeric_limits<std::int32_t>::max();
@@ -170,7 +173,8 @@ Scan::serialize() const
   header.dimension = data.dimension;
   header.flags =
       (viewpoint_ ? HAS_VIEWPOINT : 0) | (data.origins.empty() ? 0 : HAS_ORIGINS) |
-      (viewpoint_source_ == ViewpointSource::Points ? VIEWPOINT_FROM_POINTS : 0);
+      (viewpoint_source_ == ViewpointSource::Points ? VIEWPOINT_FROM_POINTS : 0) |
+      (data.normals_oriented ? NORMALS_ORIENTED : 0);
   header.spacing = data.spacing;
   Eigen::Map<Eigen::Vector3d>(header.shift) = data.shift;
   if (viewpoint_)
@@ -206,6 +210,7 @@ Scan::deserialize(std::string_view bytes)
   const auto n = static_cast<std::size_t>(header.size);
   data->dimension = static_cast<std::size_t>(header.dimension);
   data->spacing = header.spacing;
+  data->normals_oriented = (header.flags & NORMALS_ORIENTED) != 0;
   data->shift = Eigen::Map<const Eigen::Vector3d>(header.shift);
   bytes.remove_prefix(aligned(sizeof(header)));
   take(bytes, 3 * n, data->points);

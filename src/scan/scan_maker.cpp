@@ -189,6 +189,7 @@ ScanMaker::make(const PreparedInput& input,
   if (content == ScanContent::Descriptors)
     describeSurface(stages_, parameters, timings);
   takeKeypoints(stages_.takeResult(content, are_keypoints), content, *data);
+  data->normals_oriented = seen.normals_oriented;
   return {data, seen.from, seen.source};
 }
 
@@ -232,6 +233,7 @@ ScanMaker::turnToViewpoint(const PreparedInput& input, double resolution)
   stages_.turnNormals(found.place, input.viewpoint_known && found.is_stated);
   Seen seen{found.is_stated ? input.viewpoint
                             : input.shift + found.place.cast<double>()};
+  seen.normals_oriented = found.sees_all || !stages_.hasComputedNormals();
   if (input.viewpoint_known && found.sees_all)
     seen.source = found.is_stated ? ViewpointSource::Stated : ViewpointSource::Points;
   return seen;

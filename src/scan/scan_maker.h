@@ -72,6 +72,8 @@ private:
   struct Seen {
     Eigen::Vector3d from;
     ViewpointSource source = ViewpointSource::Unknown;
+    /** \brief See Scan::normalsOriented(). */
+    bool normals_oriented = true;
   };
 
   /** \brief Where the surface was seen from, and its normals turned there. */

@@ -34,8 +34,10 @@ struct Sums {
 struct Limits {
   float match, touch, margin, before;
   bool oriented;
-  /** \brief What is known to be empty is what is just before the surfaces. */
-  bool by_normals;
+  /** \brief Whether what the other cloud's sensor looked through is empty. */
+  bool by_viewpoint;
+  /** \brief Whether it is what is just before its surfaces. */
+  bool by_sides;
 };
 
 /** \brief Whether there can be nothing at a place, as it is before a surface that was seen,
@@ -86,16 +88,17 @@ sumUp(const Samples& from,
           continue;
         }
         // A surface that was seen from its other side.
-        if (limits.by_normals && squared < limits.match * limits.match) {
+        if (limits.by_sides && squared < limits.match * limits.match) {
           sums.contradicted += cosine < -MIN_COSINE ? 1 : 0;
           continue;
         }
         if (squared < limits.touch * limits.touch)
           continue;
       }
-      const bool is_empty = limits.by_normals
-                                ? isBefore(to, place, limits)
-                                : to.free_space.contains(place, limits.margin);
+      const bool is_empty =
+          limits.by_sides
+              ? isBefore(to, place, limits)
+              : limits.by_viewpoint && to.free_space.contains(place, limits.margin);
       sums.contradicted += is_empty ? 1 : 0;
     }
   }
@@ -122,13 +125,40 @@ seenFromBoth(const Sums& there,
           0};
 }
 
-/** \brief From the sums over the one cloud whose sensor is known, and over the other. */
+/** \brief Sums over the one cloud whose sensor is known, and over the other. */
+struct OneSees {
+  const Sums& seeing;
+  std::size_t seeing_points;
+  const Sums& seen;
+  std::size_t seen_points;
+};
+
+/** \brief As it is from both, but that of a larger cloud as much counts as the other one
+ * has. */
 CloudAgreement
-seenFromOne(const Sums& seeing,
-            std::size_t seeing_points,
-            const Sums& seen,
-            std::size_t seen_points)
+seenFromOneWithSides(const OneSees& one)
 {
+  const auto seers = static_cast<double>(one.seeing_points);
+  const auto all = static_cast<double>(one.seen_points);
+  const double counting = std::min(seers, all);
+  const auto of_seers = [&](double sum) {
+    return sum / static_cast<double>(one.seeing.points) * seers;
+  };
+  const double seen = static_cast<double>(one.seen.points);
+  return {(of_seers(one.seeing.matched) + one.seen.matched / seen * counting) /
+              (seers + counting * counting / all),
+          std::min(
+              1.0,
+              (of_seers(one.seeing.contradicted) + one.seen.contradicted / seen * all) /
+                  (seers + counting)),
+          0};
+}
+
+/** \brief As the one that sees sees it. */
+CloudAgreement
+seenFromOne(const OneSees& one)
+{
+  const auto& [seeing, seeing_points, seen, seen_points] = one;
   // Points of the other cloud that hang in the empty space, over what would fill the view.
   const double contradicting = seen.contradicted / static_cast<double>(seen.points) *
                                static_cast<double>(seen_points);
@@ -172,23 +202,31 @@ Look::operator()(const Pose& pose) const
 {
   const RigidFloat forward = toRigidFloat(pose);
   const float spacing = clouds_.spacing;
-  const Limits limits{tolerance_ * spacing,
-                      TOUCHING * spacing,
-                      margin_ * spacing,
-                      BEFORE * spacing,
-                      clouds_.oriented(),
-                      clouds_.belief == Belief::Normals};
-  const Sums there = sumUp(source_, clouds_.target, forward, limits);
-  const Sums back = sumUp(target_, clouds_.source, inverse(forward), limits);
+  Limits limits{tolerance_ * spacing,
+                TOUCHING * spacing,
+                margin_ * spacing,
+                BEFORE * spacing,
+                clouds_.oriented(),
+                clouds_.belief != Belief::Nothing,
+                false};
+  const auto lookAt = [&](const Samples& from, const Surface& to, const RigidFloat& T) {
+    limits.by_sides = clouds_.hasSides() && to.has_sides;
+    return sumUp(from, to, T, limits);
+  };
+  const Sums there = lookAt(source_, clouds_.target, forward);
+  const Sums back = lookAt(target_, clouds_.source, inverse(forward));
   const std::size_t sources = clouds_.source.points.size();
   const std::size_t targets = clouds_.target.points.size();
   CloudAgreement agreement;
-  if (!clouds_.seeing() || limits.oriented)
+  if (clouds_.viewpoints() != 1) {
     agreement = seenFromBoth(there, sources, back, targets);
-  else if (clouds_.source.free_space.known())
-    agreement = seenFromOne(there, sources, back, targets);
-  else
-    agreement = seenFromOne(back, targets, there, sources);
+  }
+  else {
+    const OneSees one = clouds_.source.free_space.known()
+                            ? OneSees{there, sources, back, targets}
+                            : OneSees{back, targets, there, sources};
+    agreement = clouds_.hasSides() ? seenFromOneWithSides(one) : seenFromOne(one);
+  }
   agreement.residual = residualOf(there, back, spacing);
   return agreement;
 }

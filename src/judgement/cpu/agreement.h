@@ -5,7 +5,9 @@
 
 #include "judgement/cpu/surface.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstddef>
 #include <vector>
 
@@ -13,11 +15,11 @@ namespace pcl_flashreg {
 
 /** \brief What is believed of how clouds were seen. */
 enum class Belief {
+  /** \brief Viewpoints, and of a surface that has sides, these: just before the side that was
+   * seen there is nothing. */
+  Sides,
   /** \brief Viewpoints, where they are known. */
   Viewpoints,
-  /** \brief Normals point to the side from which a surface was seen, and just before it there
-   * is nothing. */
-  Normals,
   /** \brief Nothing: normals have no sign. */
   Nothing
 };
@@ -30,23 +32,58 @@ struct SurfacePair {
   float spacing;
   Belief belief = Belief::Viewpoints;
 
-  /** \brief Whether the normals of both point to a sensor, so that their sign counts. */
+  /** \brief Viewpoints that are known and believed. */
+  int
+  viewpoints() const
+  {
+    if (belief == Belief::Nothing)
+      return 0;
+    return (source.free_space.known() ? 1 : 0) + (target.free_space.known() ? 1 : 0);
+  }
+
+  /** \brief How many times as many points as the other one a cloud of unknown viewpoint has,
+   * at most. */
+  double
+  excess() const
+  {
+    const auto s = static_cast<double>(source.points.size());
+    const auto t = static_cast<double>(target.points.size());
+    return std::max(source.free_space.known() ? 0 : s / t,
+                    target.free_space.known() ? 0 : t / s);
+  }
+
+  /** \brief Whether the sides of surfaces are believed: not of one that is much larger than
+   * the other, which was put together from several views. */
+  bool
+  hasSides() const
+  {
+    constexpr double MUCH_LARGER = 3;
+    return belief == Belief::Sides && source.oriented() && target.oriented() &&
+           viewpoints() < 2 && excess() < MUCH_LARGER;
+  }
+
+  /** \brief Whether a cloud may have a place twice, once with its sides turned the wrong
+   * way. */
+  bool
+  mayRepeat() const
+  {
+    constexpr double LARGER = 1.7;
+    return hasSides() && excess() > LARGER;
+  }
+
+  /** \brief Whether the normals of both point to where they were seen from, so that their
+   * sign counts. */
   bool
   oriented() const
   {
-    return belief == Belief::Normals ||
-           (belief == Belief::Viewpoints && source.free_space.known() &&
-            target.free_space.known());
+    return viewpoints() == 2 || hasSides();
   }
 
-  /** \brief Whether poses can be contradicted: the viewpoint of one cloud is known, or that
-   * nothing is before the surfaces. */
+  /** \brief Whether poses can be contradicted. */
   bool
   seeing() const
   {
-    return belief == Belief::Normals ||
-           (belief == Belief::Viewpoints &&
-            (source.free_space.known() || target.free_space.known()));
+    return viewpoints() > 0 || hasSides();
   }
 };
 
@@ -68,8 +105,8 @@ public:
    * spacings */
   Look(const SurfacePair& clouds, std::size_t points, float tolerance, float margin);
 
-  /** \brief Where one viewpoint alone is known, as that cloud sees it: of the other one (a
-   * map, a model) there may be any amount out of its sight.
+  /** \brief Where one viewpoint alone is known, of the other cloud (a map, a model) there may
+   * be any amount out of its sight.
    * \param[in] pose T_target_source */
   CloudAgreement
   operator()(const Pose& pose) const;
@@ -85,10 +122,10 @@ constexpr double NOTHING_TOLD = 0.01;
 
 /** \brief What the clouds say for a pose, as a logarithm. */
 inline double
-evidenceOf(const CloudAgreement& agreement, bool with_viewpoints)
+evidenceOf(const CloudAgreement& agreement)
 {
   return std::log(agreement.matched + NOTHING_TOLD) -
-         (with_viewpoints ? std::log(agreement.contradicted + NOTHING_TOLD) : 0);
+         std::log(agreement.contradicted + NOTHING_TOLD);
 }
 
 /** \brief The cosine of two normals; its absolute value where signs don't count. */

@@ -28,9 +28,10 @@ Surface::build(const CloudView<Scalar>& cloud, const Vec3& centre, float spacing
         points, (*cloud.viewpoint - origin).template cast<float>(), spacing);
   else
     free_space.clear();
+  has_sides = cloud.normals_oriented && !free_space.known();
   constexpr float AROUND = 3;
   const std::vector<Eigen::Vector3f> none;
-  around.build(free_space.known() ? none : points, AROUND * spacing);
+  around.build(has_sides ? points : none, AROUND * spacing);
 }
 
 template void

@@ -19,9 +19,19 @@ struct Surface {
   std::vector<Eigen::Vector3f> points;
   std::vector<Eigen::Vector3f> normals;
   NearestPointGrid nearest;
-  /** \brief The same of wider cells, three spacings; empty where the viewpoint is known. */
+  /** \brief The same of wider cells, three spacings; empty unless it has sides. */
   NearestPointGrid around;
   FreeSpace free_space;
+  /** \brief Whether the viewpoint is not known, but normals point to the side from which the
+   * surface was seen. */
+  bool has_sides = false;
+
+  /** \brief Whether the signs of normals tell anything. */
+  bool
+  oriented() const
+  {
+    return has_sides || free_space.known();
+  }
 
   /** \param[in] centre what is subtracted from every coordinate */
   template <typename Scalar>
