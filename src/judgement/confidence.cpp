@@ -96,21 +96,21 @@ double
 fromCloudsWithOneViewpointAndSides(const Evidence& e)
 {
   const double matched = e.agreement.matched + 0.01;
-  return logistic(-1.46 + 1.63 * std::log(matched) -
-                  0.79 * std::log(e.agreement.contradicted / matched + 0.01) +
-                  1.85 * std::log(e.inliers + 5) +
-                  1.19 * std::log(e.stiffness + 0.001) + 0.36 * holdOf(e) -
-                  2.33 * e.agreement.residual);
+  return logistic(-4.53 + 1.20 * std::log(matched) -
+                  1.03 * std::log(e.agreement.contradicted / matched + 0.01) +
+                  2.14 * std::log(e.inliers + 5) + 0.48 * e.lead +
+                  1.15 * std::log(e.stiffness + 0.001) + 0.17 * holdOf(e) -
+                  3.52 * e.agreement.residual);
 }
 
 double
 fromCloudsWithSides(const Evidence& e)
 {
   const double matched = e.agreement.matched + 0.01;
-  return logistic(-1.75 + 1.79 * std::log(matched) -
-                  0.05 * std::log(e.agreement.contradicted / matched + 0.01) +
-                  2.35 * std::log(e.inliers + 5) +
-                  0.81 * std::log(e.stiffness + 0.001) - 0.57 * e.agreement.residual);
+  return logistic(-2.48 + 1.43 * std::log(matched) -
+                  0.86 * std::log(e.agreement.contradicted / matched + 0.01) +
+                  2.48 * std::log(e.inliers + 5) +
+                  1.33 * std::log(e.stiffness + 0.001) - 4.51 * e.agreement.residual);
 }
 
 double
