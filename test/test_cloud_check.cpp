@@ -374,6 +374,26 @@ TEST(Estimator, LetsTheCloudsChoose)
   }
 }
 
+/** \brief Maps weigh such poses against what other pairs say, and need all that speaks
+ * against each. */
+TEST(Estimator, StatesWhatContradictsPosesByViewpointsThatItOverrules)
+{
+  Deceived deceived;
+  for (float& value : deceived.source.normals)
+    value = -value;
+  const auto clouds = deceived.clouds();
+  Parameters parameters;
+  parameters.max_hypotheses = 20;
+  const Result result =
+      Estimator().estimate(deceived.view(), parameters, std::nullopt, &clouds);
+  ASSERT_TRUE(result.evidence.overruled_viewpoints);
+  EXPECT_LT(deceived.error(result), 0.3 * SPACING);
+  double most = 0;
+  for (const Hypothesis& hypothesis : result.hypotheses)
+    most = std::max(most, hypothesis.agreement->contradicted);
+  EXPECT_GT(most, 0.05);
+}
+
 /** \brief Thirty wrong motions have more correspondences than the right one. */
 TEST(Estimator, AsksTheCloudsAboutEveryHypothesis)
 {

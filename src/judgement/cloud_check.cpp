@@ -317,6 +317,18 @@ CloudCheck::addPoses(const std::vector<Pose>& hypotheses,
     screen(clouds_, hypotheses, half_side_, list_, pool_);
 }
 
+void
+CloudCheck::addOverruled(CloudFindings& findings) const
+{
+  const Look look(clouds_, POINTS, TOLERANCE, MARGIN);
+  pool_.forEach(findings.poses.size(), [&](std::size_t i, std::size_t) {
+    CheckedPose& checked = findings.poses[i];
+    checked.agreement.contradicted = look(checked.pose).contradicted;
+  });
+  findings.evidence.agreement.contradicted =
+      findings.poses.front().agreement.contradicted;
+}
+
 CloudFindings
 CloudCheck::judgeIn(std::size_t number)
 {
@@ -326,6 +338,8 @@ CloudCheck::judgeIn(std::size_t number)
   CloudFindings findings = court(number).judge(give_up_early_);
   Evidence& evidence = findings.evidence;
   evidence.overruled_viewpoints = clouds_.viewpoints() > 0 && !evidence.has_viewpoints;
+  if (evidence.overruled_viewpoints)
+    addOverruled(findings);
   evidence.overruled_sides = clouds_.hasSides() && !evidence.has_sides;
   return findings;
 }

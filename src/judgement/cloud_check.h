@@ -75,6 +75,11 @@ private:
   Court&
   court(std::size_t number);
 
+  /** \brief What contradicts poses according to viewpoints that are not believed: who weighs
+   * poses against each other later has other witnesses, too. */
+  void
+  addOverruled(CloudFindings& findings) const;
+
   CloudFindings
   judgeIn(std::size_t number);
 
