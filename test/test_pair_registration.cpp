@@ -246,6 +246,8 @@ TEST_F(PairRegistrationTest, LooksASecondTimeWhereThereIsDoubt)
   const PairResult second = registration.align(source, target, twice);
   EXPECT_GT(second.pose.timings_ms.second_look, 0);
   EXPECT_FALSE(second.pose.converged);
+  EXPECT_LT(room().error(second.pose.T_target_source), 0.5 * V);
+  EXPECT_GT(second.pose.confidence, 0.6);
   EXPECT_TRUE(same(first, second));
   EXPECT_FALSE(second.pose.evidence.second_look);
 }
@@ -301,6 +303,8 @@ TEST_F(PairRegistrationTest, FindsFromTheOtherSideWhatOneSideDoesNotShow)
   EXPECT_GT(result.pose.evidence.inliers,
             static_cast<double>(result.pose.inliers.size()));
   EXPECT_EQ(result.matches.size(), wrong.size());
+  EXPECT_LT(static_cast<std::size_t>(result.pose.inliers.back()),
+            result.matches.size());
   PairRegistration alone(BackendKind::Cpu, 1);
   EXPECT_TRUE(same(result, alone.align(from, to, wrong, options)));
 }

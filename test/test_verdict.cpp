@@ -249,10 +249,11 @@ TEST(Verdict, IsNoMoreCertainThanOneOfTwoPlacesThatLookAlike)
     source.viewpoint_known = one_viewpoint;
     const PairResult result =
         PairRegistration(BackendKind::Cpu, 1).align(source, target, options);
-    EXPECT_LE(result.pose.confidence, 0.6);
+    // Without any, the room whose normals are turned the wrong way has fewer matches.
+    EXPECT_LE(result.pose.confidence, one_viewpoint ? 0.55 : 0.6);
     EXPECT_FALSE(result.pose.converged);
     EXPECT_GE(result.pose.hypotheses.size(), 2u);
-    EXPECT_GT(result.pose.evidence.rivals, 0.7);
+    EXPECT_GT(result.pose.evidence.rivals, 0.8);
     // All normals of the map are turned to one place: half of its sides are wrong.
     EXPECT_TRUE(result.pose.evidence.has_sides);
   }

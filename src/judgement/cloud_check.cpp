@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pcl_flashreg {
 namespace {
@@ -72,6 +73,8 @@ public:
         look_(clouds_, POINTS, TOLERANCE, MARGIN),
         look_closely_(clouds_, POINTS_FOR_BEST, TOLERANCE, MARGIN)
   {
+    if (clouds_.mayRepeat())
+      look_without_sides_.emplace(without_sides_, POINTS, TOLERANCE, MARGIN);
   }
 
   /** \brief Takes up what is new among the first so many of a list. */
@@ -152,25 +155,16 @@ private:
    * Where a place looks the same from elsewhere, the clouds say so; more correspondences
    * then speak for one pose than for another because the scans' patterns of points meet
    * there. A few dozen for the other one are enough, and the more there are, the less
-   * the clouds have to agree. Sides that may be turned the wrong way don't silence it. */
-  double
-  loudnessOf(const CheckedPose& rival, const CheckedPose& pose) const
+   * the clouds have to agree. */
+  static double
+  loudnessOf(const CheckedPose& rival, const CheckedPose& pose)
   {
     constexpr double BY_ALL = 4;
     const double lead = weightOf(pose) - weightOf(rival);
     const double lead_by_clouds =
         evidenceOf(pose.agreement) - evidenceOf(rival.agreement);
-    const double loudness = std::max(std::exp(-BY_ALL * std::max(0.0, lead)),
-                                     loudnessByClouds(rival.support, lead_by_clouds));
-    if (!clouds_.mayRepeat())
-      return loudness;
-    const SurfacePair no_sides{
-        clouds_.source, clouds_.target, clouds_.spacing, Belief::Viewpoints};
-    const Look look(no_sides, POINTS, TOLERANCE, MARGIN);
-    return std::max(
-        loudness,
-        loudnessByClouds(rival.support,
-                         evidenceOf(look(pose.pose)) - evidenceOf(look(rival.pose))));
+    return std::max(std::exp(-BY_ALL * std::max(0.0, lead)),
+                    loudnessByClouds(rival.support, lead_by_clouds));
   }
 
   static double
@@ -181,6 +175,28 @@ private:
     const double steepness = std::clamp(MOST / std::max(dozens, 1e-3), LEAST, MOST);
     const double supported = 1 - 1 / (1 + std::pow(dozens, 4));
     return supported * std::exp(-steepness * std::max(0.0, lead));
+  }
+
+  /** \brief All other poses, the first being the best. Sides that may be turned the wrong way
+   * don't silence them. */
+  double
+  rivalsOf(const std::vector<CheckedPose>& poses) const
+  {
+    const auto withoutSides = [&](const CheckedPose& checked) {
+      return evidenceOf((*look_without_sides_)(checked.pose));
+    };
+    const CheckedPose& first = poses.front();
+    const double firsts = look_without_sides_ ? withoutSides(first) : 0;
+    double rivals = 0;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      double loudness = loudnessOf(poses[i], first);
+      if (look_without_sides_)
+        loudness = std::max(
+            loudness,
+            loudnessByClouds(poses[i].support, firsts - withoutSides(poses[i])));
+      rivals += loudness;
+    }
+    return rivals;
   }
 
   std::size_t
@@ -241,11 +257,11 @@ private:
     evidence.one_viewpoint = clouds_.viewpoints() == 1;
     evidence.agreement = look_closely_(first.pose);
     evidence.lead = MAX_LEAD;
-    for (std::size_t i = 1; i < findings.poses.size(); ++i) {
-      const CheckedPose& other = findings.poses[i];
-      evidence.lead = std::min(evidence.lead, weightOf(first) - weightOf(other));
-      evidence.rivals += loudnessOf(other, first);
-    }
+    // They are in order.
+    if (findings.poses.size() > 1)
+      evidence.lead =
+          std::min(evidence.lead, weightOf(first) - weightOf(findings.poses[1]));
+    evidence.rivals = rivalsOf(findings.poses);
     evidence.hold = walks_.empty() ? 0 : MAX_HOLD;
     for (const Walk& walk : walks_)
       evidence.hold = std::min(evidence.hold, -walk.rise());
@@ -257,11 +273,13 @@ private:
   static constexpr std::size_t NOWHERE = ~std::size_t{0};
 
   const SurfacePair clouds_;
+  const SurfacePair without_sides_ = clouds_.believing(Belief::Viewpoints);
   const std::vector<const Problem*>& witnesses_;
   float inlier_distance_;
   double half_side_;
   ThreadPool& pool_;
   Look look_, look_closely_;
+  std::optional<Look> look_without_sides_;
   std::vector<CheckedPose> checked_;
   /** \brief Of the list. */
   std::size_t studied_ = 0;
@@ -273,7 +291,7 @@ CloudCheck::CloudCheck(const SurfacePair& clouds,
                        float inlier_distance,
                        bool give_up_early,
                        ThreadPool& pool)
-    : clouds_{clouds.source, clouds.target, clouds.spacing, Belief::Sides},
+    : clouds_(clouds.believing(Belief::Sides)),
       give_up_early_(give_up_early),
       half_side_(halfSideOf(clouds.source)),
       pool_(pool),
@@ -290,12 +308,12 @@ CloudCheck::~CloudCheck() = default;
 CloudCheck::Court&
 CloudCheck::court(std::size_t number)
 {
-  if (number == courts_.size()) {
-    const SurfacePair clouds{
-        clouds_.source, clouds_.target, clouds_.spacing, beliefs_[number]};
-    courts_.push_back(std::make_unique<Court>(
-        clouds, witnesses_, inlier_distance_, half_side_, pool_));
-  }
+  if (number == courts_.size())
+    courts_.push_back(std::make_unique<Court>(clouds_.believing(beliefs_[number]),
+                                              witnesses_,
+                                              inlier_distance_,
+                                              half_side_,
+                                              pool_));
   return *courts_[number];
 }
 
@@ -338,8 +356,6 @@ CloudCheck::judgeIn(std::size_t number)
   CloudFindings findings = court(number).judge(give_up_early_);
   Evidence& evidence = findings.evidence;
   evidence.overruled_viewpoints = clouds_.viewpoints() > 0 && !evidence.has_viewpoints;
-  if (evidence.overruled_viewpoints)
-    addOverruled(findings);
   evidence.overruled_sides = clouds_.hasSides() && !evidence.has_sides;
   return findings;
 }
@@ -359,6 +375,8 @@ CloudCheck::judge()
     if (confidenceOfClouds(others.evidence) > std::max(LEAST_TO_OVERRULE, before))
       findings = std::move(others);
   }
+  if (findings.evidence.overruled_viewpoints)
+    addOverruled(findings);
   return findings;
 }
 

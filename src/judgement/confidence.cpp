@@ -73,52 +73,39 @@ holdOf(const Evidence& e)
   return std::clamp(e.hold, -1.0, 2.0);
 }
 
+/** \brief Of a regression on what the clouds say; 0 for what it does not ask. */
+struct CloudWeights {
+  double constant, matched, contradicted, inliers, lead, stiffness, hold, residual;
+};
+
+constexpr CloudWeights BOTH_VIEWPOINTS{
+    -5.55, 1.69, -1.69, 0.93, 0.65, 0.56, 1.76, -3.39};
+constexpr CloudWeights ONE_VIEWPOINT_AND_SIDES{
+    -4.53, 1.20, -1.03, 2.14, 0.48, 1.15, 0.17, -3.52};
+constexpr CloudWeights ONE_VIEWPOINT{-3.54, 0, 0, 1.96, 1.19, 0.97, 2.03, -5.66};
+constexpr CloudWeights SIDES{-2.48, 1.43, -0.86, 2.48, 0, 1.33, 0, -4.51};
+constexpr CloudWeights NOTHING{-6.65, 0, 0, 2.57, 2.08, 0.76, 1.55, -5.23};
+
+const CloudWeights&
+weightsFor(const Evidence& e)
+{
+  if (!e.has_viewpoints)
+    return e.has_sides ? SIDES : NOTHING;
+  if (!e.one_viewpoint)
+    return BOTH_VIEWPOINTS;
+  return e.has_sides ? ONE_VIEWPOINT_AND_SIDES : ONE_VIEWPOINT;
+}
+
 double
 fromClouds(const Evidence& e)
 {
+  const CloudWeights& w = weightsFor(e);
   const double matched = e.agreement.matched + 0.01;
-  return logistic(-5.55 + 1.69 * std::log(matched) -
-                  1.69 * std::log(e.agreement.contradicted / matched + 0.01) +
-                  0.93 * std::log(e.inliers + 5) + 0.65 * e.lead +
-                  0.56 * std::log(e.stiffness + 0.001) + 1.76 * holdOf(e) -
-                  3.39 * e.agreement.residual);
-}
-
-double
-fromCloudsWithOneViewpoint(const Evidence& e)
-{
-  return logistic(-3.54 + 1.96 * std::log(e.inliers + 5) + 1.19 * e.lead +
-                  0.97 * std::log(e.stiffness + 0.001) + 2.03 * holdOf(e) -
-                  5.66 * e.agreement.residual);
-}
-
-double
-fromCloudsWithOneViewpointAndSides(const Evidence& e)
-{
-  const double matched = e.agreement.matched + 0.01;
-  return logistic(-4.53 + 1.20 * std::log(matched) -
-                  1.03 * std::log(e.agreement.contradicted / matched + 0.01) +
-                  2.14 * std::log(e.inliers + 5) + 0.48 * e.lead +
-                  1.15 * std::log(e.stiffness + 0.001) + 0.17 * holdOf(e) -
-                  3.52 * e.agreement.residual);
-}
-
-double
-fromCloudsWithSides(const Evidence& e)
-{
-  const double matched = e.agreement.matched + 0.01;
-  return logistic(-2.48 + 1.43 * std::log(matched) -
-                  0.86 * std::log(e.agreement.contradicted / matched + 0.01) +
-                  2.48 * std::log(e.inliers + 5) +
-                  1.33 * std::log(e.stiffness + 0.001) - 4.51 * e.agreement.residual);
-}
-
-double
-fromCloudsWithoutViewpoints(const Evidence& e)
-{
-  return logistic(-6.65 + 2.57 * std::log(e.inliers + 5) + 2.08 * e.lead +
-                  0.76 * std::log(e.stiffness + 0.001) + 1.55 * holdOf(e) -
-                  5.23 * e.agreement.residual);
+  return logistic(w.constant + w.matched * std::log(matched) +
+                  w.contradicted * std::log(e.agreement.contradicted / matched + 0.01) +
+                  w.inliers * std::log(e.inliers + 5) + w.lead * e.lead +
+                  w.stiffness * std::log(e.stiffness + 0.001) + w.hold * holdOf(e) +
+                  w.residual * e.agreement.residual);
 }
 
 /** \brief A probability whose odds are divided by this. */
@@ -128,23 +115,12 @@ lessLikely(double probability, double odds)
   return probability / (probability + odds * (1 - probability));
 }
 
-double
-fittedToClouds(const Evidence& e)
-{
-  if (e.has_sides)
-    return e.has_viewpoints ? fromCloudsWithOneViewpointAndSides(e)
-                            : fromCloudsWithSides(e);
-  if (!e.has_viewpoints)
-    return fromCloudsWithoutViewpoints(e);
-  return e.one_viewpoint ? fromCloudsWithOneViewpoint(e) : fromClouds(e);
-}
-
 } // namespace
 
 double
 confidenceOfClouds(const Evidence& evidence)
 {
-  const double p = fittedToClouds(evidence) * neededOfClouds(evidence);
+  const double p = fromClouds(evidence) * neededOfClouds(evidence);
   // Viewpoints are right more often than not, and so are normals.
   constexpr double ODDS = 3;
   const double with_doubt = evidence.overruled_viewpoints || evidence.overruled_sides

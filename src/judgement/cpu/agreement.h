@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstddef>
 #include <vector>
 
@@ -31,6 +30,13 @@ struct SurfacePair {
   /** \brief Distance of neighbouring points. */
   float spacing;
   Belief belief = Belief::Viewpoints;
+
+  /** \brief The same clouds, of which another thing is believed. */
+  SurfacePair
+  believing(Belief other) const
+  {
+    return {source, target, spacing, other};
+  }
 
   /** \brief Viewpoints that are known and believed. */
   int
