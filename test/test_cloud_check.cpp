@@ -115,9 +115,11 @@ TEST(NearestPointGrid, AgreesWithExhaustiveSearchToWithinACell)
                  z = random.uniform(-reach, reach);
     return Eigen::Vector3f(x, y, z);
   };
-  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> places;
   for (int i = 0; i < 400; ++i)
-    points.push_back(place(1));
+    places.push_back(place(1));
+  Array<Eigen::Vector3f> points;
+  points = places;
   NearestPointGrid grid;
   grid.build(points, 0.1f);
   int found = 0;
@@ -143,10 +145,12 @@ TEST(NearestPointGrid, AgreesWithExhaustiveSearchToWithinACell)
 
 TEST(FreeSpace, IsWhatLiesInFrontOfTheSurface)
 {
-  std::vector<Eigen::Vector3f> wall;
+  std::vector<Eigen::Vector3f> places;
   for (float x = -1; x <= 1; x += 0.05f)
     for (float y = -1; y <= 1; y += 0.05f)
-      wall.emplace_back(x, y, 2);
+      places.emplace_back(x, y, 2);
+  Array<Eigen::Vector3f> wall;
+  wall = places;
   FreeSpace space;
   EXPECT_FALSE(space.known());
   EXPECT_FALSE(space.contains({0, 0, 1}, 0.15f));

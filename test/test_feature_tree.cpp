@@ -21,7 +21,7 @@ struct Planted {
   Features queries, targets;
   DistinctFeatures distinct[2];
   FeatureSpace space;
-  std::array<FeatureTree, 2> trees;
+  std::vector<FeatureTree> trees;
 
   Planted(Features q, Features t, unsigned threads)
       : queries(std::move(q)),

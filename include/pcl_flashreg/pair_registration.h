@@ -7,6 +7,7 @@
 #include <pcl_flashreg/feature_extractor.h>
 #include <pcl_flashreg/feature_matching.h>
 #include <pcl_flashreg/scan.h>
+#include <pcl_flashreg/scan_index.h>
 
 #include <functional>
 #include <memory>
@@ -191,6 +192,13 @@ public:
            ScanContent content = ScanContent::Descriptors,
            FeatureTimings* timings = nullptr);
 
+  /** \brief Makes what a scan is found in: for maps that are asked more than once. The same
+   * on any number of threads. Takes about as long as making the scan, and four times its
+   * memory.
+   * \throws std::invalid_argument if the scan has no descriptors */
+  ScanIndex
+  makeIndex(const Scan& scan);
+
   /** \brief The resolution that align() takes for two clouds where no options say.
    * \throws std::invalid_argument as align() */
   template <typename Scalar>
@@ -217,9 +225,15 @@ public:
         const ScanInput<Scalar>& target,
         const PairOptions& options = {});
 
-  /** \brief From scans with descriptors to the pose. */
+  /** \brief From scans with descriptors to the pose. One that has more than three times as many
+   * keypoints as the other is taken for a map: the other is looked for in it, whichever is
+   * the source (docs/method.md). */
   PairResult
   align(const Scan& source, const Scan& target, const PairOptions& options = {});
+
+  /** \brief The same result, sooner, where the target's index is there already. */
+  PairResult
+  align(const Scan& source, const ScanIndex& target, const PairOptions& options = {});
 
   /** \brief From what match() returned to the pose. */
   PairResult

@@ -133,12 +133,13 @@ template <typename Scalar>
 void
 prepare(const CorrespondenceView<Scalar>& in,
         std::size_t max_correspondences,
+        const std::optional<Vec3>& target_centre,
         Preparation& out,
         Problem& problem)
 {
   chooseRows(in, max_correspondences, out);
   out.source_centre = centroid(in.source_xyz, out.rows);
-  out.target_centre = centroid(in.target_xyz, out.rows);
+  out.target_centre = target_centre.value_or(centroid(in.target_xyz, out.rows));
   packBoth(in, out, problem);
 }
 
@@ -157,9 +158,17 @@ prepareLike(const Preparation& centred,
 }
 
 template void
-prepare(const CorrespondenceView<float>&, std::size_t, Preparation&, Problem&);
+prepare(const CorrespondenceView<float>&,
+        std::size_t,
+        const std::optional<Vec3>&,
+        Preparation&,
+        Problem&);
 template void
-prepare(const CorrespondenceView<double>&, std::size_t, Preparation&, Problem&);
+prepare(const CorrespondenceView<double>&,
+        std::size_t,
+        const std::optional<Vec3>&,
+        Preparation&,
+        Problem&);
 template void
 prepareLike(const Preparation&,
             const CorrespondenceView<double>&,

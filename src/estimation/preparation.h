@@ -7,6 +7,7 @@
 
 #include <pcl_flashreg/estimator.h>
 
+#include <optional>
 #include <vector>
 
 namespace pcl_flashreg {
@@ -24,11 +25,13 @@ struct Preparation {
 
 /** \brief Leaves out rows that are not finite, keeps the best-ranked max_correspondences,
  * subtracts the centroids in double precision and packs the rest.
+ * \param[in] target_centre what is subtracted from the target's side instead, if anything
  */
 template <typename Scalar>
 void
 prepare(const CorrespondenceView<Scalar>& correspondences,
         std::size_t max_correspondences,
+        const std::optional<Vec3>& target_centre,
         Preparation& preparation,
         Problem& problem);
 
@@ -51,14 +54,23 @@ prepare(const CorrespondenceView<Scalar>& correspondences,
   Preparation preparation;
   prepare(correspondences,
           static_cast<std::size_t>(parameters.max_correspondences),
+          std::nullopt,
           preparation,
           problem);
 }
 
 extern template void
-prepare(const CorrespondenceView<float>&, std::size_t, Preparation&, Problem&);
+prepare(const CorrespondenceView<float>&,
+        std::size_t,
+        const std::optional<Vec3>&,
+        Preparation&,
+        Problem&);
 extern template void
-prepare(const CorrespondenceView<double>&, std::size_t, Preparation&, Problem&);
+prepare(const CorrespondenceView<double>&,
+        std::size_t,
+        const std::optional<Vec3>&,
+        Preparation&,
+        Problem&);
 extern template void
 prepareLike(const Preparation&,
             const CorrespondenceView<double>&,

@@ -9,7 +9,6 @@
 #include "matching/cpu/feature_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -37,6 +36,19 @@ check(const char* name, const FeatureView& view)
 
 } // namespace
 
+void
+checkSearch(const FeatureView& queries, const FeatureView& targets, std::size_t k)
+{
+  check("queries", queries);
+  check("targets", targets);
+  if (k == 0)
+    throw std::invalid_argument("k = 0 is out of range: it must be >= 1");
+  if (queries.size > 0 && targets.size > 0 && queries.dimension != targets.dimension)
+    throw std::invalid_argument(
+        "queries have dimension " + std::to_string(queries.dimension) +
+        ", targets have dimension " + std::to_string(targets.dimension));
+}
+
 MutualMatches
 searchFeatures(const FeatureView& queries,
                const FeatureView& targets,
@@ -44,16 +56,9 @@ searchFeatures(const FeatureView& queries,
                bool both_ways,
                ThreadPool& pool)
 {
-  check("queries", queries);
-  check("targets", targets);
-  if (k == 0)
-    throw std::invalid_argument("k = 0 is out of range: it must be >= 1");
+  checkSearch(queries, targets, k);
   if (queries.size == 0 || targets.size == 0)
     return {};
-  if (queries.dimension != targets.dimension)
-    throw std::invalid_argument(
-        "queries have dimension " + std::to_string(queries.dimension) +
-        ", targets have dimension " + std::to_string(targets.dimension));
 
   std::optional<DistinctFeatures> sides[2];
   pool.forEach(2, [&](std::size_t side, std::size_t) {
@@ -63,12 +68,16 @@ searchFeatures(const FeatureView& queries,
   if (from.size() == 0 || to.size() == 0)
     return {};
   const FeatureSpace space(from, to);
-  const std::array<FeatureTree, 2> trees = plantTrees({&from, &to}, space, pool);
+  const std::vector<FeatureTree> trees = plantTrees({&from, &to}, space, pool);
   const FeatureSet sets[2] = {{from, trees[0]}, {to, trees[1]}};
+  const auto search = [&](const FeatureSet& side, const FeatureSet& other) {
+    return searchNearest(
+        side, other, TargetBlocks(other, space, pool), space, k, pool);
+  };
   MutualMatches matches;
-  matches.forward = searchNearest(sets[0], sets[1], space, k, pool);
+  matches.forward = search(sets[0], sets[1]);
   if (both_ways)
-    matches.backward = searchNearest(sets[1], sets[0], space, k, pool);
+    matches.backward = search(sets[1], sets[0]);
   return matches;
 }
 

@@ -9,6 +9,11 @@
 
 namespace pcl_flashreg {
 
+/** \brief Whether a search can be made.
+ * \throws std::invalid_argument as FeatureMatcher::match() */
+void
+checkSearch(const FeatureView& queries, const FeatureView& targets, std::size_t k);
+
 /** \brief The k nearest target descriptors of each query, and with `both_ways` the other
  * way round, too; as FeatureMatcher states it.
  * \throws std::invalid_argument see there */

@@ -3,11 +3,13 @@
 
 #include <pcl_flashreg/estimator.h>
 
+#include "registration/exchange.h"
 #include "registration/pose_search.h"
 #include "support/require.h"
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace pcl_flashreg {
 namespace {
@@ -38,9 +40,20 @@ run(PoseSearch& search,
   if (!clouds)
     return search.run(correspondences, parameters, guess, nullptr);
   checkInput(*clouds);
-  const JudgingClouds judges{
-      {clouds->source, {}}, {clouds->target, {}}, clouds->spacing};
-  return search.run(correspondences, parameters, guess, &judges);
+  JudgingClouds judges{
+      JudgingCloud(clouds->source), JudgingCloud(clouds->target), clouds->spacing};
+  if (!Vicinity::isMuchLarger(clouds->source.size, clouds->target.size))
+    return search.run(correspondences, parameters, guess, &judges);
+  // A scan is looked for in a map, whichever of them is the source.
+  std::swap(judges.source, judges.target);
+  CorrespondenceView<Scalar> exchanged = correspondences;
+  std::swap(exchanged.source_xyz, exchanged.target_xyz);
+  std::optional<RigidTransform> guess_back;
+  if (guess)
+    guess_back = inverseOf(*guess);
+  Result result = search.run(exchanged, parameters, guess_back, &judges);
+  exchange(result);
+  return result;
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "localization/scan_index_data.h"
 #include "registration/pair_workers.h"
 
 #include <vector>
@@ -16,19 +17,38 @@ matchScans(const Scan& source,
            const PairOptions& options,
            ThreadPool& pool);
 
+/** \brief Each keypoint of a scan with its nearest of a map.
+ * \param[in] index of the map; null if there is none */
+std::vector<FeatureMatch>
+matchInMap(const Scan& scan,
+           const Scan& map,
+           const ScanIndex::Data* index,
+           std::size_t neighbors,
+           ThreadPool& pool);
+
+/** \brief What was matched first. */
+struct MatchedScans {
+  const Scan& source;
+  const Scan& target;
+  /** \brief Of the target, where it is a map that has one. */
+  const ScanIndex::Data* index;
+  /** \brief Of each keypoint of the source with several of a map, if these are known. */
+  const std::vector<FeatureMatch>& candidates;
+};
+
 /** \brief What to match where the first matches, of each source keypoint, leave doubt: each
  * target keypoint with its nearest of the source, and both ways again at a coarser
  * resolution. A keypoint that lies where the other cloud is not has a wrong match in any
  * case, so that of the smaller one of both overlapping shares fewer are wrong; and what is
- * smooth at one resolution may have a shape at another. */
+ * smooth at one resolution may have a shape at another. In a map, the places that most
+ * matches of either resolution lie in, one after the other. */
 class OtherMatches {
 public:
   /** \brief Keeps all arguments. */
-  OtherMatches(const Scan& source,
-               const Scan& target,
+  OtherMatches(const MatchedScans& scans,
                const PairOptions& options,
                PairWorkers& workers)
-      : source_(source), target_(target), options_(options), workers_(workers)
+      : scans_(scans), options_(options), workers_(workers)
   {
   }
 
@@ -41,12 +61,17 @@ private:
   forth(const Scan& source, const Scan& target) const;
   Correspondences
   back(const Scan& source, const Scan& target) const;
+  void
+  makeCoarse();
+  void
+  findPlaces();
 
-  const Scan& source_;
-  const Scan& target_;
+  const MatchedScans scans_;
   const PairOptions& options_;
   PairWorkers& workers_;
   Scan coarse_source_, coarse_target_;
+  /** \brief In a map. */
+  std::vector<Correspondences> places_;
 };
 
 } // namespace pcl_flashreg

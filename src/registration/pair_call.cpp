@@ -3,7 +3,8 @@
 
 #include "registration/pair_call.h"
 
-#include "matching/search.h"
+#include "localization/places.h"
+#include "registration/exchange.h"
 #include "registration/other_matches.h"
 
 #include <pcl_flashreg/resolution.h>
@@ -32,13 +33,34 @@ spacingOf(const Scalar* xyz, std::size_t size)
 }
 
 JudgingCloud
-judgeFrom(const Scan& scan)
+judgeFrom(const Scan& scan, const ScanIndex::Data* index)
 {
   CloudView<float> view{scan.points(), scan.normals(), scan.size(), std::nullopt};
   view.normals_oriented = scan.normalsOriented();
   if (scan.viewpoint())
     view.viewpoint = *scan.viewpoint() - scan.shift();
-  return {view, {scan.shift().x(), scan.shift().y(), scan.shift().z()}};
+  const Eigen::Vector3d& shift = scan.shift();
+  JudgingCloud cloud(view, {shift.x(), shift.y(), shift.z()});
+  if (index) {
+    cloud.surface = &index->surface;
+    cloud.spacing = scan.spacing();
+    cloud.known_middle = index->middle;
+  }
+  return cloud;
+}
+
+/** \brief Of several matches of each query the first. */
+std::vector<FeatureMatch>
+firstOf(const std::vector<FeatureMatch>& matches, std::size_t most)
+{
+  std::vector<FeatureMatch> first;
+  std::size_t rank = 0;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    rank = i > 0 && matches[i].query == matches[i - 1].query ? rank + 1 : 0;
+    if (rank < most)
+      first.push_back(matches[i]);
+  }
+  return first;
 }
 
 } // namespace
@@ -46,12 +68,16 @@ judgeFrom(const Scan& scan)
 void
 PairCall::begin(PairStep step) const
 {
-  if (options_.on_step)
-    options_.on_step({step,
-                      result_.resolution,
-                      result_.source.size(),
-                      result_.target.size(),
-                      result_.correspondences});
+  if (!options_.on_step)
+    return;
+  PairProgress at{step,
+                  result_.resolution,
+                  result_.source.size(),
+                  result_.target.size(),
+                  result_.correspondences};
+  if (exchanged_)
+    std::swap(at.source_keypoints, at.target_keypoints);
+  options_.on_step(at);
 }
 
 void
@@ -104,15 +130,27 @@ PairCall::makeScans(const PreparedInput& source,
   result_.source = workers_.maker.make(source, resolution, content, timings.source);
   begin(PairStep::TargetScan);
   result_.target = workers_.maker.make(target, resolution, content, timings.target);
+  exchangeIfMap();
 }
 
 void
-PairCall::takeScans(const Scan& source, const Scan& target)
+PairCall::takeScans(const Scan& source, const Scan& target, const ScanIndex::Data* index)
 {
   result_.source = source;
   result_.target = target;
   result_.resolution =
       options_.resolution.value_or(std::max(source.spacing(), target.spacing()));
+  if (isMapFor(target, source))
+    index_ = index;
+  exchangeIfMap();
+}
+
+void
+PairCall::exchangeIfMap()
+{
+  exchanged_ = isMapFor(result_.source, result_.target);
+  if (exchanged_)
+    std::swap(result_.source, result_.target);
 }
 
 void
@@ -120,25 +158,38 @@ PairCall::match()
 {
   begin(PairStep::Matching);
   const detail::Stopwatch watch;
-  result_.matches =
-      matchScans(result_.source, result_.target, options_, workers_.search.pool());
+  if (isMapFor(result_.target, result_.source) && !options_.mutual) {
+    candidates_ = matchInMap(result_.source,
+                             result_.target,
+                             index_,
+                             std::max(options_.neighbors, NEIGHBORS_IN_MAP),
+                             workers_.search.pool());
+    result_.matches = firstOf(candidates_, options_.neighbors);
+  }
+  else {
+    result_.matches =
+        matchScans(result_.source, result_.target, options_, workers_.search.pool());
+  }
   result_.timings.matching = watch.milliseconds();
 }
 
 void
 PairCall::takeMatches(const std::vector<FeatureMatch>& matches)
 {
-  const auto isRow = [](std::int32_t row, const Scan& scan) {
-    return row >= 0 && static_cast<std::size_t>(row) < scan.size();
+  const std::size_t sources = (exchanged_ ? result_.target : result_.source).size();
+  const std::size_t targets = (exchanged_ ? result_.source : result_.target).size();
+  const auto isRow = [](std::int32_t row, std::size_t count) {
+    return row >= 0 && static_cast<std::size_t>(row) < count;
   };
   for (const FeatureMatch& match : matches)
-    if (!isRow(match.query, result_.source) || !isRow(match.match, result_.target))
+    if (!isRow(match.query, sources) || !isRow(match.match, targets))
       throw std::invalid_argument("match of keypoints " + std::to_string(match.query) +
                                   " and " + std::to_string(match.match) +
-                                  ": the scans have " +
-                                  std::to_string(result_.source.size()) + " and " +
-                                  std::to_string(result_.target.size()));
+                                  ": the scans have " + std::to_string(sources) +
+                                  " and " + std::to_string(targets));
   result_.matches = matches;
+  if (exchanged_)
+    exchange(result_.matches);
 }
 
 void
@@ -147,10 +198,23 @@ PairCall::estimateFromMatches()
   const Correspondences correspondences =
       toCorrespondences(result_.source, result_.target, result_.matches);
   if (!options_.second_look || options_.mutual)
-    return estimate(correspondences.view());
-  OtherMatches others(result_.source, result_.target, options_, workers_);
+    return estimate(correspondences.view(), {});
+  OtherMatches others(
+      {result_.source, result_.target, index_, candidates_}, options_, workers_);
   estimate(correspondences.view(), [&](std::size_t i) { return others.get(i); });
 }
+
+template <typename Scalar>
+void
+PairCall::estimateFrom(CorrespondenceView<Scalar> correspondences)
+{
+  if (exchanged_)
+    std::swap(correspondences.source_xyz, correspondences.target_xyz);
+  estimate(correspondences, {});
+}
+
+template void PairCall::estimateFrom(CorrespondenceView<float>);
+template void PairCall::estimateFrom(CorrespondenceView<double>);
 
 template <typename Scalar>
 void
@@ -160,28 +224,31 @@ PairCall::estimate(const CorrespondenceView<Scalar>& correspondences,
   result_.correspondences = correspondences.size;
   begin(PairStep::Estimation);
   result_.parameters = options_.parametersFor(result_.resolution);
-  const JudgingClouds clouds{judgeFrom(result_.source),
-                             judgeFrom(result_.target),
-                             result_.resolution,
-                             options_.give_up_early};
+  const JudgingClouds clouds{
+      judgeFrom(result_.source, nullptr),
+      judgeFrom(result_.target, index_),
+      result_.resolution,
+      options_.give_up_early};
   const bool ask =
       options_.cloud_check && !result_.source.empty() && !result_.target.empty();
   result_.pose = workers_.search.run(correspondences,
                                      result_.parameters,
-                                     options_.guess,
+                                     exchanged_ && options_.guess
+                                         ? inverseOf(*options_.guess)
+                                         : options_.guess,
                                      ask ? &clouds : nullptr,
                                      second_look);
   result_.timings.estimation = result_.pose.timings_ms;
 }
 
-template void
-PairCall::estimate(const CorrespondenceView<float>&, const SecondLook&);
-template void
-PairCall::estimate(const CorrespondenceView<double>&, const SecondLook&);
-
 PairResult
 PairCall::finish()
 {
+  if (exchanged_) {
+    std::swap(result_.source, result_.target);
+    exchange(result_.matches);
+    exchange(result_.pose);
+  }
   result_.timings.total = total_.milliseconds();
   return std::move(result_);
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "localization/scan_index_data.h"
 #include "registration/pair_workers.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
@@ -34,9 +35,12 @@ public:
             const PreparedInput& target,
             ScanContent content);
 
-  /** \brief Scans that are there already, and the coarser of their resolutions. */
+  /** \brief Scans that are there already, and the coarser of their resolutions.
+   * \param[in] index of the target, if not null */
   void
-  takeScans(const Scan& source, const Scan& target);
+  takeScans(const Scan& source,
+            const Scan& target,
+            const ScanIndex::Data* index = nullptr);
 
   /** \brief Correspondences between the scans. */
   void
@@ -49,11 +53,11 @@ public:
   void
   estimateFromMatches();
 
-  /** \brief From correspondences to the pose; the scans judge, where there are any. */
+  /** \brief From correspondences of the caller's to the pose; the scans judge, where there
+   * are any. */
   template <typename Scalar>
   void
-  estimate(const CorrespondenceView<Scalar>& correspondences,
-           const SecondLook& second_look = {});
+  estimateFrom(CorrespondenceView<Scalar> correspondences);
 
   const PairResult&
   result() const
@@ -68,9 +72,24 @@ private:
   void
   begin(PairStep step) const;
 
+  /** \brief A scan is looked for in a map, whichever of them is the source. */
+  void
+  exchangeIfMap();
+
+  template <typename Scalar>
+  void
+  estimate(const CorrespondenceView<Scalar>& correspondences,
+           const SecondLook& second_look);
+
   PairWorkers& workers_;
   const PairOptions& options_;
   PairResult result_;
+  /** \brief Whether source and target of the result are the caller's target and source. */
+  bool exchanged_ = false;
+  /** \brief Of the target, where it is a map that has one. */
+  const ScanIndex::Data* index_ = nullptr;
+  /** \brief Matches of each keypoint with several of a map. */
+  std::vector<FeatureMatch> candidates_;
   detail::Stopwatch total_;
 };
 

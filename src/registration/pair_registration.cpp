@@ -70,6 +70,24 @@ PairRegistration::align(const Scan& source,
 
 PairResult
 PairRegistration::align(const Scan& source,
+                        const ScanIndex& target,
+                        const PairOptions& options)
+{
+  PairCall call(*impl_, options);
+  call.takeScans(source, target.scan(), &target.data());
+  call.match();
+  call.estimateFromMatches();
+  return call.finish();
+}
+
+ScanIndex
+PairRegistration::makeIndex(const Scan& scan)
+{
+  return makeScanIndex(scan, impl_->maker, impl_->search.pool());
+}
+
+PairResult
+PairRegistration::align(const Scan& source,
                         const Scan& target,
                         const std::vector<FeatureMatch>& matches,
                         const PairOptions& options)
@@ -93,7 +111,7 @@ PairRegistration::align(const ScanInput<Scalar>& source,
   const bool has_clouds = countOf(source.points) > 0 && countOf(target.points) > 0;
   if (options.cloud_check && has_clouds && call.result().resolution != 0)
     call.makeScans(PreparedInput(source), PreparedInput(target), ScanContent::Surface);
-  call.estimate(correspondences);
+  call.estimateFrom(correspondences);
   return call.finish();
 }
 
@@ -105,7 +123,7 @@ PairRegistration::align(const Scan& source,
 {
   PairCall call(*impl_, options);
   call.takeScans(source, target);
-  call.estimate(correspondences);
+  call.estimateFrom(correspondences);
   return call.finish();
 }
 

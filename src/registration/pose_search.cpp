@@ -11,6 +11,8 @@
 #include "math/distinctness.h"
 #include "registration/choose_backend.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <limits>
 
@@ -266,24 +268,59 @@ PoseSearch::fill(Result& result,
   }
 }
 
+Vec3
+JudgingCloud::middle() const
+{
+  if (known_middle)
+    return *known_middle;
+  Eigen::AlignedBox3d box;
+  std::visit(
+      [&](const auto& cloud) {
+        for (std::size_t i = 0; i < cloud.size; ++i) {
+          const auto* p = cloud.xyz + 3 * i;
+          const Eigen::Vector3d point(p[0], p[1], p[2]);
+          if (point.allFinite())
+            box.extend(point);
+        }
+      },
+      view);
+  if (box.isEmpty())
+    return shift;
+  const Eigen::Vector3d middle = 0.5 * (box.min() + box.max());
+  return Vec3{middle.x(), middle.y(), middle.z()} + shift;
+}
+
 SurfacePair
 PoseSearch::prepareClouds(const JudgingClouds& clouds)
 {
   const auto spacing = static_cast<float>(clouds.spacing);
+  const bool is_map = clouds.areScanAndMap();
   const auto build = [&](const JudgingCloud& cloud,
                          const Vec3& centre,
+                         bool in_order,
                          Surface& surface) {
     std::visit(
-        [&](const auto& view) { surface.build(view, centre - cloud.shift, spacing); },
+        [&](const auto& view) {
+          surface.build(view, centre - cloud.shift, spacing, in_order);
+        },
         cloud.view);
   };
-  pool_.forEach(2, [&](std::size_t side, std::size_t) {
+  const JudgingCloud& target = clouds.target;
+  const bool is_made = is_map && target.surface && target.spacing == clouds.spacing;
+  pool_.forEach(is_made ? 1 : 2, [&](std::size_t side, std::size_t) {
     if (side == 0)
-      build(clouds.source, preparation_.source_centre, source_surface_);
+      build(clouds.source, preparation_.source_centre, false, source_surface_);
     else
-      build(clouds.target, preparation_.target_centre, target_surface_);
+      build(target, preparation_.target_centre, is_map, target_surface_);
   });
-  return {source_surface_, target_surface_, spacing};
+  const Surface& target_surface = is_made ? *target.surface : target_surface_;
+  if (is_map)
+    vicinity_.build(source_surface_, target_surface);
+  return {source_surface_,
+          target_surface,
+          spacing,
+          Belief::Viewpoints,
+          is_map ? &vicinity_ : nullptr};
 }
 
 template <typename Scalar>
@@ -299,8 +336,13 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
   Result result;
   result.backend = backend_->name();
   StageClock clock(result.timings_ms);
+  // A map's surface does not depend on what is looked for in it.
+  std::optional<Vec3> middle;
+  if (clouds && clouds->areScanAndMap())
+    middle = clouds->target.middle();
   prepare(correspondences,
           static_cast<std::size_t>(parameters.max_correspondences),
+          middle,
           preparation_,
           problem_);
   result.correspondences_used = preparation_.rows.size();

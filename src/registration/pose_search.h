@@ -13,26 +13,49 @@
 
 #include <deque>
 #include <functional>
+#include <optional>
 #include <variant>
 
 namespace pcl_flashreg {
 
 /** \brief A cloud that is to judge poses. */
 struct JudgingCloud {
+  template <typename Scalar>
+  explicit JudgingCloud(const CloudView<Scalar>& cloud, const Vec3& offset = {0, 0, 0})
+      : view(cloud), shift(offset)
+  {
+  }
+
   std::variant<CloudView<float>, CloudView<double>> view;
   /** \brief What to add to the view's coordinates to get those of the correspondences. */
-  Vec3 shift{0, 0, 0};
+  Vec3 shift;
+  /** \brief Made of it already, if not null: in order, about its middle, for points at this
+   * distance. */
+  const Surface* surface = nullptr;
+  double spacing = 0;
+  std::optional<Vec3> known_middle;
 
-  const std::optional<Eigen::Vector3d>&
-  viewpoint() const
+  std::size_t
+  size() const
   {
-    return std::visit(
-        [](const auto& v) -> const auto& { return v.viewpoint; }, view);
+    return std::visit([](const auto& v) { return v.size; }, view);
   }
+
+  /** \brief The middle of the box around its points, in the frame of the correspondences. */
+  Vec3
+  middle() const;
 };
 
 struct JudgingClouds {
   JudgingCloud source, target;
+
+  /** \brief Whether the target is a map for the source. */
+  bool
+  areScanAndMap() const
+  {
+    return Vicinity::isMuchLarger(target.size(), source.size());
+  }
+
   /** \brief Distance of neighbouring points. */
   double spacing = 0;
   /** \brief See PairOptions. */
@@ -127,6 +150,7 @@ private:
   /** \brief Of a second look; they stay where they are when there are more. */
   std::deque<Problem> others_;
   Surface source_surface_, target_surface_;
+  Vicinity vicinity_;
 };
 
 extern template Result

@@ -3,22 +3,24 @@
 
 #pragma once
 
+#include "support/array.h"
+
 #include <pcl_flashreg/scan.h>
 
-#include <vector>
+#include <cstdint>
 
 namespace pcl_flashreg {
 
 /** \brief What Scan's functions of the same names hand out; arrays have a row a keypoint,
  * or none. */
 struct Scan::Data {
-  std::vector<float> points;
-  std::vector<float> normals;
-  std::vector<float> curvatures;
-  std::vector<float> descriptors;
+  Array<float> points;
+  Array<float> normals;
+  Array<float> curvatures;
+  Array<float> descriptors;
   /** \brief Values in a descriptor; 0 where there are none. */
   std::size_t dimension = 0;
-  std::vector<std::int32_t> origins;
+  Array<std::int32_t> origins;
   /** \brief See Scan::normalsOriented(). */
   bool normals_oriented = false;
   double spacing = 0;

@@ -4,6 +4,8 @@
 // A scan as bytes: a header, the arrays, each from a multiple of 64 bytes on, a checksum.
 // Numbers are little-endian.
 
+#include "scan/scan_file.h"
+
 #include "scan/scan_data.h"
 #include "support/byte_order.h"
 #include "support/checksum.h"
@@ -56,7 +58,7 @@ append(std::string& bytes, const void* data, std::size_t size)
 
 template <typename Value>
 void
-append(std::string& bytes, const std::vector<Value>& values)
+append(std::string& bytes, const Array<Value>& values)
 {
   const std::size_t begin = bytes.size();
   append(bytes, values.data(), values.size() * sizeof(Value));
@@ -89,15 +91,25 @@ sizeFor(const Header& header)
   return size + sizeof(std::uint64_t);
 }
 
+/** \brief The next array: a copy, or where it is, if somebody keeps it there. */
 template <typename Value>
 void
-take(std::string_view& bytes, std::size_t count, std::vector<Value>& values)
+take(std::string_view& bytes,
+     const std::shared_ptr<const void>& keeper,
+     std::size_t count,
+     Array<Value>& array)
 {
-  values.resize(count);
-  if (count > 0)
-    std::memcpy(values.data(), bytes.data(), count * sizeof(Value));
-  swapToLittleEndian(
-      reinterpret_cast<char*>(values.data()), count * sizeof(Value), sizeof(Value));
+  if (keeper) {
+    array.map(keeper, reinterpret_cast<const Value*>(bytes.data()), count);
+  }
+  else {
+    std::vector<Value> values(count);
+    if (count > 0)
+      std::memcpy(values.data(), bytes.data(), count * sizeof(Value));
+    swapToLittleEndian(
+        reinterpret_cast<char*>(values.data()), count * sizeof(Value), sizeof(Value));
+    array = std::move(values);
+  }
   bytes.remove_prefix(aligned(count * sizeof(Value)));
 }
 
@@ -136,7 +148,7 @@ checkedHeader(std::string_view bytes)
 }
 
 bool
-allFinite(const std::vector<float>& values)
+allFinite(const Array<float>& values)
 {
   for (const float value : values)
     if (!std::isfinite(value))
@@ -157,6 +169,31 @@ checkContents(const Header& header, const Scan::Data& data)
     sound = sound && origin >= 0;
   if (!sound)
     throw ScanFileError("holds numbers that no scan has");
+}
+
+Scan
+takeScan(const Header& header,
+         std::string_view bytes,
+         const std::shared_ptr<const void>& keeper)
+{
+  const auto data = std::make_shared<Scan::Data>();
+  const auto n = static_cast<std::size_t>(header.size);
+  data->dimension = static_cast<std::size_t>(header.dimension);
+  data->spacing = header.spacing;
+  data->normals_oriented = (header.flags & NORMALS_ORIENTED) != 0;
+  data->shift = Eigen::Map<const Eigen::Vector3d>(header.shift);
+  bytes.remove_prefix(aligned(sizeof(header)));
+  take(bytes, keeper, 3 * n, data->points);
+  take(bytes, keeper, 3 * n, data->normals);
+  take(bytes, keeper, n, data->curvatures);
+  take(bytes, keeper, n * data->dimension, data->descriptors);
+  take(bytes, keeper, header.flags & HAS_ORIGINS ? n : 0, data->origins);
+  checkContents(header, *data);
+  ViewpointSource source = ViewpointSource::Unknown;
+  if (header.flags & HAS_VIEWPOINT)
+    source = header.flags & VIEWPOINT_FROM_POINTS ? ViewpointSource::Points
+                                                  : ViewpointSource::Stated;
+  return {data, Eigen::Map<const Eigen::Vector3d>(header.viewpoint), source};
 }
 
 } // namespace
@@ -205,25 +242,17 @@ Scan::deserialize(std::string_view bytes)
   swapToLittleEndian(reinterpret_cast<char*>(&checksum), 8, 8);
   if (checksum != checksumOf(bytes.data(), end))
     throw ScanFileError("is damaged: its checksum is not that of its contents");
+  return takeScan(header, bytes, nullptr);
+}
 
-  const auto data = std::make_shared<Data>();
-  const auto n = static_cast<std::size_t>(header.size);
-  data->dimension = static_cast<std::size_t>(header.dimension);
-  data->spacing = header.spacing;
-  data->normals_oriented = (header.flags & NORMALS_ORIENTED) != 0;
-  data->shift = Eigen::Map<const Eigen::Vector3d>(header.shift);
-  bytes.remove_prefix(aligned(sizeof(header)));
-  take(bytes, 3 * n, data->points);
-  take(bytes, 3 * n, data->normals);
-  take(bytes, n, data->curvatures);
-  take(bytes, n * data->dimension, data->descriptors);
-  take(bytes, header.flags & HAS_ORIGINS ? n : 0, data->origins);
-  checkContents(header, *data);
-  ViewpointSource source = ViewpointSource::Unknown;
-  if (header.flags & HAS_VIEWPOINT)
-    source = header.flags & VIEWPOINT_FROM_POINTS ? ViewpointSource::Points
-                                                  : ViewpointSource::Stated;
-  return {data, Eigen::Map<const Eigen::Vector3d>(header.viewpoint), source};
+Scan
+mapScan(std::string_view bytes, const std::shared_ptr<const void>& keeper)
+{
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+  return Scan::deserialize(bytes);
+#else
+  return takeScan(checkedHeader(bytes), bytes, keeper);
+#endif
 }
 
 void

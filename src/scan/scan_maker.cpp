@@ -57,15 +57,19 @@ keepRows(const PreparedInput& input, Scan::Data& data)
 {
   const FeatureView& features = input.features;
   data.dimension = features.dimension;
+  std::vector<std::int32_t> origins;
   for (std::size_t i = 0; i < countOf(input.points); ++i)
     if (isFinite(pointOf(input.points, i)))
-      data.origins.push_back(static_cast<std::int32_t>(indexOf(input.points, i)));
-  data.descriptors.reserve(data.origins.size() * data.dimension);
-  for (const std::int32_t origin : data.origins) {
+      origins.push_back(static_cast<std::int32_t>(indexOf(input.points, i)));
+  std::vector<float> descriptors;
+  descriptors.reserve(origins.size() * data.dimension);
+  for (const std::int32_t origin : origins) {
     const float* row =
         features.data + static_cast<std::size_t>(origin) * features.stride;
-    data.descriptors.insert(data.descriptors.end(), row, row + data.dimension);
+    descriptors.insert(descriptors.end(), row, row + data.dimension);
   }
+  data.origins = std::move(origins);
+  data.descriptors = std::move(descriptors);
 }
 
 /** \brief Keypoints and what was computed of them; descriptors of the caller's stay. */

@@ -61,6 +61,25 @@ public:
   OpenFile&
   operator=(const OpenFile&) = delete;
 
+  int
+  descriptor() const
+  {
+    return fd_;
+  }
+
+  /** \brief Bytes of a plain file.
+   * \throws std::system_error if it is none */
+  std::size_t
+  plainSize() const
+  {
+    struct stat status;
+    systemCall([&] { return ::fstat(fd_, &status); });
+    if (!S_ISREG(status.st_mode))
+      throw std::system_error(S_ISDIR(status.st_mode) ? EISDIR : ESPIPE,
+                              std::generic_category());
+    return static_cast<std::size_t>(status.st_size);
+  }
+
   /** \brief All bytes that are left.
    * \throws std::system_error if that fails midway */
   std::string

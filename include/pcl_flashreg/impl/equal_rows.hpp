@@ -62,6 +62,12 @@ public:
     }
   }
 
+  /** \brief What firsts() and followers() gave out. */
+  EqualRows(std::vector<std::uint32_t> firsts, std::vector<std::uint32_t> followers)
+      : firsts_(std::move(firsts)), next_(std::move(followers))
+  {
+  }
+
   /** \brief The first of each kind, ascending. */
   const std::vector<std::uint32_t>&
   firsts() const
@@ -73,6 +79,13 @@ public:
   allDiffer() const
   {
     return next_.empty();
+  }
+
+  /** \brief next() of all rows; empty where all differ. */
+  const std::vector<std::uint32_t>&
+  followers() const
+  {
+    return next_;
   }
 
   /** \brief The next row that equals row i, or NONE. */

@@ -3,10 +3,9 @@
 
 #include "judgement/cpu/agreement.h"
 
-#include "math/rigid_float.h"
-
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace pcl_flashreg {
 namespace {
@@ -27,7 +26,15 @@ struct Sums {
   double matched = 0, contradicted = 0;
   /** \brief Points that match, and the sum of their squared distances from the planes. */
   double matches = 0, squares = 0;
-  std::size_t points = 0;
+  /** \brief Points, and how many of their cloud these stand for. */
+  double points = 0, stand_for = 0;
+
+  /** \brief A share of the points; 0 of none. */
+  double
+  share(double part) const
+  {
+    return points > 0 ? part / points : 0;
+  }
 };
 
 /** \brief What counts as what; lengths in the unit of the clouds. */
@@ -61,15 +68,21 @@ sumUp(const Samples& from,
 {
   constexpr std::size_t A_BLOCK = 64;
   Sums sums;
-  sums.points = from.points.size();
+  const std::size_t points = from.points.size();
+  sums.points = static_cast<double>(points);
+  sums.stand_for = static_cast<double>(from.stand_for);
   Eigen::Vector3f places[A_BLOCK];
   int neighbors[A_BLOCK];
-  for (std::size_t first = 0; first < sums.points; first += A_BLOCK) {
-    const std::size_t count = std::min(A_BLOCK, sums.points - first);
+  for (std::size_t first = 0; first < points; first += A_BLOCK) {
+    const std::size_t count = std::min(A_BLOCK, points - first);
     // All look-ups first: then they wait for the memory together.
     for (std::size_t k = 0; k < count; ++k) {
       places[k] = pose * from.points[first + k];
       neighbors[k] = to.nearest.find(places[k]);
+      if (neighbors[k] >= 0) {
+        __builtin_prefetch(&to.points[neighbors[k]]);
+        __builtin_prefetch(&to.normals[neighbors[k]]);
+      }
     }
     for (std::size_t k = 0; k < count; ++k) {
       const Eigen::Vector3f& place = places[k];
@@ -108,17 +121,12 @@ sumUp(const Samples& from,
 /** \brief From the sums over both clouds: each side counts by the number of its points,
  * however many were looked at. */
 CloudAgreement
-seenFromBoth(const Sums& there,
-             std::size_t source_points,
-             const Sums& back,
-             std::size_t target_points)
+seenFromBoth(const Sums& there, const Sums& back)
 {
-  const auto sources = static_cast<double>(source_points);
-  const auto targets = static_cast<double>(target_points);
   const auto share = [&](double of_source, double of_target) {
-    return (of_source * sources / static_cast<double>(there.points) +
-            of_target * targets / static_cast<double>(back.points)) /
-           (sources + targets);
+    return (there.share(of_source) * there.stand_for +
+            back.share(of_target) * back.stand_for) /
+           (there.stand_for + back.stand_for);
   };
   return {share(there.matched, back.matched),
           share(there.contradicted, back.contradicted),
@@ -128,9 +136,7 @@ seenFromBoth(const Sums& there,
 /** \brief Sums over the one cloud whose sensor is known, and over the other. */
 struct OneSees {
   const Sums& seeing;
-  std::size_t seeing_points;
   const Sums& seen;
-  std::size_t seen_points;
 };
 
 /** \brief As it is from both, but that of a larger cloud as much counts as the other one
@@ -138,19 +144,15 @@ struct OneSees {
 CloudAgreement
 seenFromOneWithSides(const OneSees& one)
 {
-  const auto seers = static_cast<double>(one.seeing_points);
-  const auto all = static_cast<double>(one.seen_points);
+  const auto& [seeing, seen] = one;
+  const double seers = seeing.stand_for, all = seen.stand_for;
   const double counting = std::min(seers, all);
-  const auto of_seers = [&](double sum) {
-    return sum / static_cast<double>(one.seeing.points) * seers;
-  };
-  const double seen = static_cast<double>(one.seen.points);
-  return {(of_seers(one.seeing.matched) + one.seen.matched / seen * counting) /
+  return {(seeing.share(seeing.matched) * seers + seen.share(seen.matched) * counting) /
               (seers + counting * counting / all),
-          std::min(
-              1.0,
-              (of_seers(one.seeing.contradicted) + one.seen.contradicted / seen * all) /
-                  (seers + counting)),
+          std::min(1.0,
+                   (seeing.share(seeing.contradicted) * seers +
+                    seen.share(seen.contradicted) * all) /
+                       (seers + counting)),
           0};
 }
 
@@ -158,12 +160,26 @@ seenFromOneWithSides(const OneSees& one)
 CloudAgreement
 seenFromOne(const OneSees& one)
 {
-  const auto& [seeing, seeing_points, seen, seen_points] = one;
+  const auto& [seeing, seen] = one;
   // Points of the other cloud that hang in the empty space, over what would fill the view.
-  const double contradicting = seen.contradicted / static_cast<double>(seen.points) *
-                               static_cast<double>(seen_points);
-  return {seeing.matched / static_cast<double>(seeing.points),
-          std::min(1.0, contradicting / static_cast<double>(seeing_points)),
+  const double contradicting = seen.share(seen.contradicted) * seen.stand_for;
+  return {seeing.share(seeing.matched),
+          std::min(1.0, contradicting / seeing.stand_for),
+          0};
+}
+
+/** \brief As the scan sees it that is looked for in a map. What a map does not show speaks
+ * against a place, too: elsewhere it would be explained. */
+CloudAgreement
+seenInMap(const Sums& scan, const Sums& map)
+{
+  const double MISSING = getenv("X_MISS") ? atof(getenv("X_MISS")) : 0.1;
+  const double missing = scan.points - scan.matches - scan.contradicted;
+  const double contradicting = map.share(map.contradicted) * map.stand_for;
+  return {scan.share(scan.matched),
+          std::min(1.0,
+                   scan.share(scan.contradicted + MISSING * missing) +
+                       contradicting / scan.stand_for),
           0};
 }
 
@@ -178,29 +194,37 @@ residualOf(const Sums& there, const Sums& back, double spacing)
 
 } // namespace
 
-Samples::Samples(const Surface& cloud, std::size_t most)
+Samples::Samples(const Surface& cloud, const PointRanges& numbers, std::size_t most)
+    : stand_for(numbers.size())
 {
-  const std::size_t count = std::min(most, cloud.points.size());
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = k * cloud.points.size() / count;
+  const std::size_t count = std::min(most, stand_for);
+  points.reserve(count);
+  normals.reserve(count);
+  numbers.forSome(most, [&](std::size_t i) {
     points.push_back(cloud.points[i]);
     normals.push_back(cloud.normals[i]);
-  }
+  });
 }
 
 Look::Look(const SurfacePair& clouds, std::size_t points, float tolerance, float margin)
     : clouds_(clouds),
+      points_(points),
       tolerance_(tolerance),
       margin_(margin),
-      source_(clouds.source, points),
-      target_(clouds.target, points)
+      source_(clouds.source, PointRanges(clouds.source.points.size()), points)
 {
+  if (!clouds.vicinity)
+    target_.emplace(clouds.target, PointRanges(clouds.target.points.size()), points);
 }
 
 CloudAgreement
 Look::operator()(const Pose& pose) const
 {
   const RigidFloat forward = toRigidFloat(pose);
+  std::optional<Samples> near;
+  if (!target_)
+    near.emplace(clouds_.target, clouds_.targetUnder(forward), points_);
+  const Samples& target = target_ ? *target_ : *near;
   const float spacing = clouds_.spacing;
   Limits limits{tolerance_ * spacing,
                 TOUCHING * spacing,
@@ -214,17 +238,17 @@ Look::operator()(const Pose& pose) const
     return sumUp(from, to, T, limits);
   };
   const Sums there = lookAt(source_, clouds_.target, forward);
-  const Sums back = lookAt(target_, clouds_.source, inverse(forward));
-  const std::size_t sources = clouds_.source.points.size();
-  const std::size_t targets = clouds_.target.points.size();
+  const Sums back = lookAt(target, clouds_.source, inverse(forward));
   CloudAgreement agreement;
-  if (clouds_.viewpoints() != 1) {
-    agreement = seenFromBoth(there, sources, back, targets);
+  if (clouds_.vicinity) {
+    agreement = seenInMap(there, back);
+  }
+  else if (clouds_.viewpoints() != 1) {
+    agreement = seenFromBoth(there, back);
   }
   else {
-    const OneSees one = clouds_.source.free_space.known()
-                            ? OneSees{there, sources, back, targets}
-                            : OneSees{back, targets, there, sources};
+    const OneSees one = clouds_.source.free_space.known() ? OneSees{there, back}
+                                                          : OneSees{back, there};
     agreement = clouds_.hasSides() ? seenFromOneWithSides(one) : seenFromOne(one);
   }
   agreement.residual = residualOf(there, back, spacing);

@@ -4,10 +4,13 @@
 #pragma once
 
 #include "judgement/cpu/surface.h"
+#include "judgement/cpu/vicinity.h"
+#include "math/rigid_float.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace pcl_flashreg {
@@ -30,12 +33,22 @@ struct SurfacePair {
   /** \brief Distance of neighbouring points. */
   float spacing;
   Belief belief = Belief::Viewpoints;
+  /** \brief Null where all of the target matters under any pose. */
+  const Vicinity* vicinity = nullptr;
 
   /** \brief The same clouds, of which another thing is believed. */
   SurfacePair
   believing(Belief other) const
   {
-    return {source, target, spacing, other};
+    return {source, target, spacing, other, vicinity};
+  }
+
+  /** \brief Points of the target that the source can meet. */
+  PointRanges
+  targetUnder(const RigidFloat& pose) const
+  {
+    return vicinity ? vicinity->around(pose.translation)
+                    : PointRanges(target.points.size());
   }
 
   /** \brief Viewpoints that are known and believed. */
@@ -93,11 +106,13 @@ struct SurfacePair {
   }
 };
 
-/** \brief Points of a cloud, spread evenly over their numbers. */
+/** \brief Points of a cloud, spread evenly over some of its numbers. */
 struct Samples {
-  Samples(const Surface& cloud, std::size_t most);
+  Samples(const Surface& cloud, const PointRanges& numbers, std::size_t most);
 
   std::vector<Eigen::Vector3f> points, normals;
+  /** \brief How many they stand for. */
+  std::size_t stand_for;
 };
 
 /** \brief How two clouds get on with each other under poses, by points of either that stand
@@ -119,8 +134,11 @@ public:
 
 private:
   const SurfacePair& clouds_;
+  std::size_t points_;
   float tolerance_, margin_;
-  Samples source_, target_;
+  Samples source_;
+  /** \brief Nothing where it depends on the pose. */
+  std::optional<Samples> target_;
 };
 
 /** \brief Shares of points below which nothing can be told. */

@@ -5,9 +5,36 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-
 namespace pcl_flashreg {
+
+namespace {
+
+/** \brief What some of the source's points touch. */
+void
+findContactsOf(const PointRanges& numbers,
+               const SurfacePair& clouds,
+               const RigidFloat& pose,
+               const Reach& reach,
+               std::vector<Contact>& contacts)
+{
+  const Surface &source = clouds.source, &target = clouds.target;
+  const bool oriented = clouds.oriented();
+  const float limit = reach.radius * clouds.spacing;
+  numbers.forSome(reach.points, [&](std::size_t i) {
+    const Eigen::Vector3f place = pose * source.points[i];
+    const int neighbor = target.nearest.find(place);
+    if (neighbor < 0)
+      return;
+    const Eigen::Vector3f offset = place - target.points[neighbor];
+    const Eigen::Vector3f& normal = target.normals[neighbor];
+    const float cosine =
+        alignmentOf(pose.rotation * source.normals[i], normal, oriented);
+    if (offset.squaredNorm() <= limit * limit && cosine >= reach.min_cosine)
+      contacts.push_back({place, normal, normal.dot(offset)});
+  });
+}
+
+} // namespace
 
 void
 findContacts(const SurfacePair& clouds,
@@ -15,23 +42,8 @@ findContacts(const SurfacePair& clouds,
              const Reach& reach,
              std::vector<Contact>& contacts)
 {
-  const Surface &source = clouds.source, &target = clouds.target;
-  const bool oriented = clouds.oriented();
-  const std::size_t count = std::min(reach.points, source.points.size());
-  const float limit = reach.radius * clouds.spacing;
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = k * source.points.size() / count;
-    const Eigen::Vector3f place = pose * source.points[i];
-    const int neighbor = target.nearest.find(place);
-    if (neighbor < 0)
-      continue;
-    const Eigen::Vector3f offset = place - target.points[neighbor];
-    const Eigen::Vector3f& normal = target.normals[neighbor];
-    const float cosine =
-        alignmentOf(pose.rotation * source.normals[i], normal, oriented);
-    if (offset.squaredNorm() <= limit * limit && cosine >= reach.min_cosine)
-      contacts.push_back({place, normal, normal.dot(offset)});
-  }
+  findContactsOf(
+      PointRanges(clouds.source.points.size()), clouds, pose, reach, contacts);
 }
 
 std::vector<Contact>
@@ -39,8 +51,11 @@ contactsOfBoth(const SurfacePair& clouds, const RigidFloat& pose, const Reach& r
 {
   std::vector<Contact> contacts, back;
   findContacts(clouds, pose, reach, contacts);
-  findContacts(
-      {clouds.target, clouds.source, clouds.spacing}, inverse(pose), reach, back);
+  findContactsOf(clouds.targetUnder(pose),
+                 {clouds.target, clouds.source, clouds.spacing},
+                 inverse(pose),
+                 reach,
+                 back);
   for (const Contact& contact : back)
     contacts.push_back(
         {pose * contact.place, pose.rotation * contact.normal, contact.residual});

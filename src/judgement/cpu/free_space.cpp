@@ -36,7 +36,7 @@ FreeSpace::pixelOf(const Eigen::Vector3f& ray) const
 }
 
 void
-FreeSpace::build(const std::vector<Eigen::Vector3f>& points,
+FreeSpace::build(const Array<Eigen::Vector3f>& points,
                  const Eigen::Vector3f& viewpoint,
                  float spacing)
 {

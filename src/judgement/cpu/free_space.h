@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "support/array.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -18,7 +20,7 @@ public:
    * \param[in] viewpoint in the frame of the points
    * \param[in] spacing distance of neighbouring points, > 0 */
   void
-  build(const std::vector<Eigen::Vector3f>& points,
+  build(const Array<Eigen::Vector3f>& points,
         const Eigen::Vector3f& viewpoint,
         float spacing);
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace pcl_flashreg {
 namespace {
@@ -33,38 +34,43 @@ cellsInReach()
 void
 NearestPointGrid::grow()
 {
-  std::vector<Block> old(2 * blocks_.size());
-  old.swap(blocks_);
+  std::vector<Block>& blocks = blocks_.own();
+  std::vector<Block> old(2 * blocks.size());
+  old.swap(blocks);
   for (const Block& block : old)
     if (block.key != FREE)
-      blocks_[slotOf(block.key)] = block;
+      blocks[slotOf(blocks, block.key)] = block;
 }
 
 /** \return first cell of the block, which is made if it is not there yet */
 std::size_t
 NearestPointGrid::blockOf(std::uint64_t key)
 {
-  const std::size_t slot = slotOf(key);
-  if (blocks_[slot].key == key)
-    return blocks_[slot].first_cell;
-  const std::size_t first = cells_.size();
-  blocks_[slot] = {key, first};
-  cells_.resize(first + CELLS_A_BLOCK, -1);
+  std::vector<Block>& blocks = blocks_.own();
+  std::vector<int>& cells = cells_.own();
+  const std::size_t slot = slotOf(blocks, key);
+  if (blocks[slot].key == key)
+    return blocks[slot].first_cell;
+  const std::size_t first = cells.size();
+  blocks[slot] = {key, first};
+  cells.resize(first + CELLS_A_BLOCK, -1);
   distances_.resize(first + CELLS_A_BLOCK, std::numeric_limits<float>::infinity());
-  if (2 * ++used_ > blocks_.size())
+  if (2 * ++used_ > blocks.size())
     grow();
   return first;
 }
 
 void
-NearestPointGrid::build(const std::vector<Eigen::Vector3f>& points, float side)
+NearestPointGrid::build(const Array<Eigen::Vector3f>& points, float side)
 {
   static const std::array<Eigen::Vector3i, CELLS_IN_REACH> reach = cellsInReach();
   side_ = side;
   inverse_side_ = 1 / side;
+  points_ = static_cast<int>(points.size());
   used_ = 0;
-  blocks_.assign(MIN_SLOTS, Block{});
-  cells_.assign(CELLS_A_BLOCK, -1);
+  blocks_.own().assign(MIN_SLOTS, Block{});
+  std::vector<int>& cells = cells_.own();
+  cells.assign(CELLS_A_BLOCK, -1);
   distances_.assign(CELLS_A_BLOCK, 0);
   std::uint64_t last = FREE;
   std::size_t first = 0;
@@ -82,10 +88,34 @@ NearestPointGrid::build(const std::vector<Eigen::Vector3f>& points, float side)
       const float squared = (points[i] - centre).squaredNorm();
       if (squared < distances_[at]) {
         distances_[at] = squared;
-        cells_[at] = static_cast<int>(i);
+        cells[at] = static_cast<int>(i);
       }
     }
   }
+  blocks_.seal();
+  cells_.seal();
+}
+
+bool
+NearestPointGrid::restore(float side,
+                          Array<Block> blocks,
+                          Array<int> cells,
+                          std::size_t points)
+{
+  side_ = side;
+  inverse_side_ = 1 / side;
+  points_ = static_cast<int>(points);
+  blocks_ = std::move(blocks);
+  cells_ = std::move(cells);
+  const std::size_t size = blocks_.size();
+  // A search ends at a slot that is free.
+  bool has_free = false, inside = cells_.size() >= CELLS_A_BLOCK;
+  for (const Block& block : blocks_) {
+    has_free |= block.key == FREE;
+    inside &= block.first_cell <= cells_.size() &&
+              cells_.size() - block.first_cell >= CELLS_A_BLOCK;
+  }
+  return side > 0 && size > 0 && (size & (size - 1)) == 0 && has_free && inside;
 }
 
 } // namespace pcl_flashreg

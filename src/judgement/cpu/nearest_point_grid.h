@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "support/array.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -21,25 +23,54 @@ namespace pcl_flashreg {
  */
 class NearestPointGrid {
 public:
-  /** \param[in] points finite
+  /** \param[in] points finite; fewer than 2^31
    * \param[in] side of a cell, > 0 */
   void
-  build(const std::vector<Eigen::Vector3f>& points, float side);
+  build(const Array<Eigen::Vector3f>& points, float side);
+
+  struct Block {
+    std::uint64_t key = FREE;
+    std::uint64_t first_cell = 0;
+  };
+
+  /** \brief What restore() takes, of a grid of the same points. */
+  float
+  side() const
+  {
+    return side_;
+  }
+  const Array<Block>&
+  blocks() const
+  {
+    return blocks_;
+  }
+  const Array<int>&
+  cells() const
+  {
+    return cells_;
+  }
+
+  /** \param[in] points how many there are
+   * \return whether these can be parts of a grid; if not, it must not be asked */
+  bool
+  restore(float side, Array<Block> blocks, Array<int> cells, std::size_t points);
 
   /** \return number of a point, -1 if there is none near */
   int
   find(const Eigen::Vector3f& place) const
   {
     const Eigen::Vector3i cell = cellOf(place);
-    return cells_[blocks_[slotOf(keyOf(cell))].first_cell + offsetOf(cell)];
+    const int point =
+        cells_[blocks_[slotOf(blocks_, keyOf(cell))].first_cell + offsetOf(cell)];
+    // Of a file, nobody has looked at all of them.
+    return point < points_ ? point : -1;
   }
 
   /** \brief Of memory. */
   std::size_t
   bytes() const
   {
-    return blocks_.capacity() * sizeof(Block) + cells_.capacity() * sizeof(int) +
-           distances_.capacity() * sizeof(float);
+    return blocks_.bytes() + cells_.bytes() + distances_.capacity() * sizeof(float);
   }
 
 private:
@@ -49,11 +80,6 @@ private:
   static constexpr std::uint64_t FREE = ~std::uint64_t{0};
   /** \brief Cells an axis that a key has room for, to either side of the origin. */
   static constexpr int HALF_RANGE = 1 << 20;
-
-  struct Block {
-    std::uint64_t key = FREE;
-    std::size_t first_cell = 0;
-  };
 
   /** \brief Places far outside are in a border cell, where a stray point does no harm. */
   int
@@ -94,12 +120,13 @@ private:
   }
 
   /** \brief Where the block stands, or would have to be put. */
-  std::size_t
-  slotOf(std::uint64_t key) const
+  template <typename Blocks>
+  static std::size_t
+  slotOf(const Blocks& blocks, std::uint64_t key)
   {
-    const std::size_t mask = blocks_.size() - 1;
+    const std::size_t mask = blocks.size() - 1;
     std::size_t slot = ((key * 0x9E3779B97F4A7C15ull) >> 32) & mask;
-    while (blocks_[slot].key != FREE && blocks_[slot].key != key)
+    while (blocks[slot].key != FREE && blocks[slot].key != key)
       slot = (slot + 1) & mask;
     return slot;
   }
@@ -110,10 +137,11 @@ private:
   blockOf(std::uint64_t key);
 
   float side_ = 1, inverse_side_ = 1;
-  std::vector<Block> blocks_;
+  int points_ = 0;
+  Array<Block> blocks_;
   std::size_t used_ = 0;
   /** \brief Points, block by block; -1 where there is none. */
-  std::vector<int> cells_;
+  Array<int> cells_;
   /** \brief Squared distance of the point to the centre of its cell; for building alone. */
   std::vector<float> distances_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace pcl_flashreg {
 namespace {
@@ -41,6 +42,24 @@ DistinctFeatures::DistinctFeatures(const FeatureView& features) : view(features)
   std::memcpy(&largest, &most, sizeof(largest));
   equal = detail::EqualRows(
       finite.size(), view.dimension, [this](std::size_t i) { return of(finite[i]); });
+  findRows();
+}
+
+DistinctFeatures::DistinctFeatures(const FeatureView& features,
+                                   std::vector<std::int32_t> finite_rows,
+                                   detail::EqualRows equal_rows,
+                                   float largest_value)
+    : view(features),
+      finite(std::move(finite_rows)),
+      equal(std::move(equal_rows)),
+      largest(largest_value)
+{
+  findRows();
+}
+
+void
+DistinctFeatures::findRows()
+{
   rows.reserve(equal.firsts().size());
   for (const std::uint32_t first : equal.firsts())
     rows.push_back(finite[first]);

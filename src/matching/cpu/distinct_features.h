@@ -26,6 +26,12 @@ struct DistinctFeatures {
 
   explicit DistinctFeatures(const FeatureView& features);
 
+  /** \brief One that was made before, of the same descriptors. */
+  DistinctFeatures(const FeatureView& features,
+                   std::vector<std::int32_t> finite_rows,
+                   detail::EqualRows equal_rows,
+                   float largest_value);
+
   std::size_t
   size() const
   {
@@ -39,6 +45,9 @@ struct DistinctFeatures {
   }
 
 private:
+  void
+  findRows();
+
   const float*
   of(std::int32_t row) const
   {

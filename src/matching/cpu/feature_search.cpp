@@ -9,7 +9,6 @@
 
 #include "matching/cpu/feature_search.h"
 
-#include "support/aligned_buffer.h"
 #include "simd/kernels.h"
 #include "matching/cpu/match_table.h"
 #include "matching/cpu/nearest_lists.h"
@@ -27,19 +26,8 @@ using cpu::QUERY_BLOCK;
 
 /** \brief Groups of queries in a task. */
 constexpr std::size_t GROUPS_A_TASK = 8;
-/** \brief Blocks of targets that a task transposes. */
-constexpr std::size_t BLOCKS_A_TASK = 8;
 /** \brief Covers what underflows in single precision: squares of values near zero. */
 constexpr double UNDERFLOW_ERROR = std::numeric_limits<float>::min();
-
-double
-squaredNorm(const float* values, std::size_t n)
-{
-  double sum = 0;
-  for (std::size_t d = 0; d < n; ++d)
-    sum += static_cast<double>(values[d]) * values[d];
-  return sum;
-}
 
 double
 squaredDistance(const float* a, const float* b, std::size_t n)
@@ -59,55 +47,6 @@ squaredDistance(const float* a, const float* b, std::size_t n)
     add(d % LANES, d);
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
-
-/** \brief The targets, centred and transposed in blocks, with their norms. */
-struct TargetBlocks {
-  AlignedBuffer<float> values, norms;
-  std::size_t dimension;
-  double longest = 0;
-
-  TargetBlocks(const FeatureSet& targets, const FeatureSpace& space, ThreadPool& pool)
-      : dimension(space.dimension())
-  {
-    const std::size_t blocks = targets.tree.blocks(), size = targets.features.size();
-    values.resize(blocks * dimension * FEATURE_BLOCK);
-    norms.resize(blocks * FEATURE_BLOCK);
-    const std::size_t tasks = (blocks + BLOCKS_A_TASK - 1) / BLOCKS_A_TASK;
-    pool.forEach(tasks, [&](std::size_t task, std::size_t) {
-      const std::size_t end = std::min(blocks, (task + 1) * BLOCKS_A_TASK);
-      for (std::size_t block = task * BLOCKS_A_TASK; block < end; ++block)
-        fill(block, targets, space);
-    });
-    const float largest_norm = *std::max_element(norms.begin(), norms.begin() + size);
-    longest = std::sqrt(static_cast<double>(largest_norm));
-  }
-
-  cpu::FeatureBlock
-  input() const
-  {
-    return {values.data(), norms.data(), dimension};
-  }
-
-private:
-  void
-  fill(std::size_t block, const FeatureSet& targets, const FeatureSpace& space)
-  {
-    std::vector<float> centred(dimension);
-    for (std::size_t lane = 0; lane < FEATURE_BLOCK; ++lane) {
-      const std::size_t i = block * FEATURE_BLOCK + lane;
-      const bool is_target = i < targets.features.size();
-      if (is_target)
-        space.centre(targets.features[static_cast<std::size_t>(targets.tree.order[i])],
-                     centred.data());
-      else
-        std::fill(centred.begin(), centred.end(), 0.0f);
-      norms[i] = is_target ? static_cast<float>(squaredNorm(centred.data(), dimension))
-                           : std::numeric_limits<float>::infinity();
-      for (std::size_t d = 0; d < dimension; ++d)
-        values[(block * dimension + d) * FEATURE_BLOCK + lane] = centred[d];
-    }
-  }
-};
 
 /** \brief Finds the matches of QUERY_BLOCK queries at a time. One object a thread. */
 class GroupSearch {
@@ -186,7 +125,7 @@ private:
     query.squared_norm = squaredNorm(values, space_.dimension());
     // The filter computes |t|^2 - 2 q.t. A sum of n products errs by at most n u |q| |t|, in
     // any order of summation; the bound covers the other roundings, too.
-    const double lengths = std::sqrt(query.squared_norm) + blocks_.longest;
+    const double lengths = std::sqrt(query.squared_norm) + blocks_.longest();
     query.filter_error =
         (static_cast<double>(space_.dimension()) + 8) / (1 << 23) * lengths * lengths +
         UNDERFLOW_ERROR;
@@ -282,12 +221,12 @@ private:
 std::vector<FeatureMatch>
 searchNearest(const FeatureSet& queries,
               const FeatureSet& targets,
+              const TargetBlocks& blocks,
               const FeatureSpace& space,
               std::size_t k,
               ThreadPool& pool)
 {
   const cpu::Kernels& kernels = cpu::selectKernels();
-  const TargetBlocks blocks(targets, space, pool);
   const std::size_t size = queries.features.size();
   const std::size_t nearest = std::min(k, targets.features.size());
   MatchTable matches(queries.features, targets.features, k);

@@ -4,23 +4,19 @@
 #pragma once
 
 #include "matching/cpu/feature_tree.h"
+#include "matching/cpu/target_blocks.h"
 
 #include <cstddef>
 #include <vector>
 
 namespace pcl_flashreg {
 
-/** \brief One side of a search. */
-struct FeatureSet {
-  const DistinctFeatures& features;
-  const FeatureTree& tree;
-};
-
 /** \brief The k nearest targets of each query, as FeatureMatcher::match() states them.
  * Neither set is empty. */
 std::vector<FeatureMatch>
 searchNearest(const FeatureSet& queries,
               const FeatureSet& targets,
+              const TargetBlocks& blocks,
               const FeatureSpace& space,
               std::size_t k,
               ThreadPool& pool);

@@ -18,7 +18,6 @@ constexpr std::size_t SAMPLES = 256;
 /** \brief Rounds of subspace iteration. The components need not be accurate, only
  * orthonormal, which they are after each. */
 constexpr int ROUNDS = 5;
-constexpr Eigen::Index COMPONENTS = Shadow::RowsAtCompileTime - 1;
 
 } // namespace
 
@@ -41,7 +40,7 @@ FeatureSpace::FeatureSpace(const DistinctFeatures& queries,
   sample.rowwise() -= mean_;
 
   const Eigen::MatrixXd axes =
-      Eigen::MatrixXd::Identity(dimension, std::min(dimension, COMPONENTS));
+      Eigen::MatrixXd::Identity(dimension, std::min(dimension, SHADOW_COMPONENTS));
   components_ = axes;
   for (int round = 0; round < ROUNDS; ++round) {
     const Eigen::MatrixXd turned = sample.transpose() * (sample * components_);
@@ -73,7 +72,7 @@ FeatureSpace::cast(const DistinctFeatures& features,
     Shadow shadow = Shadow::Zero();
     shadow.head(leading.cols()) = leading.row(i).transpose().cast<float>();
     const double rest = centred.row(i).squaredNorm() - leading.row(i).squaredNorm();
-    shadow[COMPONENTS] = static_cast<float>(std::sqrt(std::max(0.0, rest)));
+    shadow[SHADOW_COMPONENTS] = static_cast<float>(std::sqrt(std::max(0.0, rest)));
     shadows[begin + static_cast<std::size_t>(i)] = shadow;
   }
 }

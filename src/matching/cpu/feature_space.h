@@ -8,11 +8,15 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <utility>
 
 namespace pcl_flashreg {
 
 /** \brief What is left of a descriptor in four dimensions. */
 using Shadow = Eigen::Array4f;
+
+/** \brief Principal components behind a shadow, of descriptors that have so many values. */
+constexpr Eigen::Index SHADOW_COMPONENTS = Shadow::RowsAtCompileTime - 1;
 
 /** \brief The space of the descriptors of a search, centred on the targets' mean and scaled
  * by a power of two, so that no value is large, and the shadows that they cast: the first
@@ -22,6 +26,34 @@ using Shadow = Eigen::Array4f;
 class FeatureSpace {
 public:
   FeatureSpace(const DistinctFeatures& queries, const DistinctFeatures& targets);
+
+  /** \brief One that was made before: what mean(), components() and scale() gave out. */
+  FeatureSpace(Eigen::RowVectorXd mean, Eigen::MatrixXd components, double scale)
+      : mean_(std::move(mean)), components_(std::move(components)), scale_(scale)
+  {
+  }
+
+  const Eigen::RowVectorXd&
+  mean() const
+  {
+    return mean_;
+  }
+
+  /** \brief Orthonormal columns. */
+  const Eigen::MatrixXd&
+  components() const
+  {
+    return components_;
+  }
+
+  /** \brief Whether queries are not so much larger than the targets that a square could
+   * overflow. */
+  bool
+  hasRoomFor(const DistinctFeatures& queries) const
+  {
+    constexpr double LARGE = 1e6;
+    return static_cast<double>(queries.largest) * scale_ <= LARGE;
+  }
 
   std::size_t
   dimension() const
@@ -54,7 +86,6 @@ public:
 
 private:
   Eigen::RowVectorXd mean_;
-  /** \brief Orthonormal columns. */
   Eigen::MatrixXd components_;
   double scale_ = 1;
 };

@@ -123,19 +123,22 @@ struct Task {
 };
 
 void
-castShadows(const std::array<const DistinctFeatures*, 2>& features,
+castShadows(const std::vector<const DistinctFeatures*>& features,
             const FeatureSpace& space,
-            std::array<FeatureTree, 2>& trees,
+            std::vector<FeatureTree>& trees,
             ThreadPool& pool)
 {
-  std::size_t tasks[2];
-  for (std::size_t t = 0; t < 2; ++t) {
+  struct Share {
+    std::size_t tree, begin;
+  };
+  std::vector<Share> shares;
+  for (std::size_t t = 0; t < features.size(); ++t) {
     trees[t].shadows.resize(features[t]->size());
-    tasks[t] = (features[t]->size() + CAST_AT_ONCE - 1) / CAST_AT_ONCE;
+    for (std::size_t begin = 0; begin < features[t]->size(); begin += CAST_AT_ONCE)
+      shares.push_back({t, begin});
   }
-  pool.forEach(tasks[0] + tasks[1], [&](std::size_t task, std::size_t) {
-    const std::size_t t = task < tasks[0] ? 0 : 1;
-    const std::size_t begin = (task - (t == 0 ? 0 : tasks[0])) * CAST_AT_ONCE;
+  pool.forEach(shares.size(), [&](std::size_t i, std::size_t) {
+    const auto [t, begin] = shares[i];
     const std::size_t end = std::min(begin + CAST_AT_ONCE, features[t]->size());
     space.cast(*features[t], begin, end, trees[t].shadows.data());
   });
@@ -154,15 +157,19 @@ FeatureTree::bounds(std::size_t begin, std::size_t end) const
   return box;
 }
 
-std::array<FeatureTree, 2>
-plantTrees(const std::array<const DistinctFeatures*, 2>& features,
+std::vector<FeatureTree>
+plantTrees(const std::vector<const DistinctFeatures*>& features,
            const FeatureSpace& space,
            ThreadPool& pool)
 {
-  std::array<FeatureTree, 2> trees;
+  std::vector<FeatureTree> trees(features.size());
   castShadows(features, space, trees, pool);
-  std::array<Planter, 2> planters{Planter(trees[0]), Planter(trees[1])};
-  std::vector<Task> tasks{{0, 0, 0, trees[0].blocks()}, {1, 0, 0, trees[1].blocks()}};
+  std::vector<Planter> planters;
+  std::vector<Task> tasks;
+  for (std::size_t t = 0; t < trees.size(); ++t) {
+    planters.emplace_back(trees[t]);
+    tasks.push_back({t, 0, 0, trees[t].blocks()});
+  }
   // Level by level, until there are nodes enough for all threads.
   while (tasks.size() < 4 * pool.size()) {
     pool.forEach(tasks.size(), [&](std::size_t i, std::size_t) {

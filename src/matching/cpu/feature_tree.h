@@ -6,7 +6,6 @@
 #include "support/thread_pool.h"
 #include "matching/cpu/feature_space.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -64,9 +63,9 @@ struct FeatureTree {
   bounds(std::size_t begin, std::size_t end) const;
 };
 
-/** \brief The trees of both sets of a search. */
-std::array<FeatureTree, 2>
-plantTrees(const std::array<const DistinctFeatures*, 2>& features,
+/** \brief The trees of the sets of a search, none of which is empty. */
+std::vector<FeatureTree>
+plantTrees(const std::vector<const DistinctFeatures*>& features,
            const FeatureSpace& space,
            ThreadPool& pool);
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "support/aligned_buffer.h"
-#include "scan/cpu/radix_sort.h"
+#include "support/radix_sort.h"
 #include "simd/kernels.h"
 
 #include <array>

@@ -3,7 +3,7 @@
 
 #include "scan/cpu/voxel_count.h"
 
-#include "scan/cpu/radix_sort.h"
+#include "support/radix_sort.h"
 #include "scan/points.h"
 
 #include <algorithm>

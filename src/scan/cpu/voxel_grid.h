@@ -4,7 +4,7 @@
 #pragma once
 
 #include "scan/cpu/cell_numbering.h"
-#include "scan/cpu/radix_sort.h"
+#include "support/radix_sort.h"
 #include "math/vec3.h"
 #include "scan/scan_pipeline.h"
 #include "support/thread_pool.h"

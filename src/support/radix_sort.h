@@ -7,7 +7,6 @@
 #include <vector>
 
 namespace pcl_flashreg {
-namespace cpu {
 
 /** \brief A cell's number and the index of what lies in it. */
 struct KeyedIndex {
@@ -52,5 +51,4 @@ radixSort(std::vector<Item>& items, int bits)
   }
 }
 
-} // namespace cpu
 } // namespace pcl_flashreg

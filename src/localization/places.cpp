@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "localization/places.h"
+
+#include "judgement/cpu/vicinity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <utility>
+
+namespace pcl_flashreg {
+namespace {
+
+/** \brief Of the keypoints so many lie within the radius of a scan. */
+constexpr double SHARE_WITHIN = 0.9;
+
+/** \brief Cells of the map, as wide as the scan's radius. */
+using Cell = std::array<std::int64_t, 3>;
+
+Eigen::Vector3f
+pointOf(const Scan& scan, std::size_t i)
+{
+  return Eigen::Map<const Eigen::Vector3f>(scan.points() + 3 * i);
+}
+
+/** \brief Of the sphere about their mean that most keypoints lie in. */
+float
+radiusOf(const Scan& scan)
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    mean += pointOf(scan, i).cast<double>();
+  mean /= static_cast<double>(scan.size());
+  std::vector<float> squared;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    squared.push_back((pointOf(scan, i) - mean.cast<float>()).squaredNorm());
+  const auto rank = static_cast<std::ptrdiff_t>(
+      SHARE_WITHIN * static_cast<double>(squared.size() - 1));
+  std::nth_element(squared.begin(), squared.begin() + rank, squared.end());
+  return std::sqrt(squared[static_cast<std::size_t>(rank)]);
+}
+
+/** \brief Matches by the cell of their keypoint in the map; the matches of a keypoint of the
+ * scan follow each other, the nearest first. */
+using Cells = std::map<Cell, std::vector<FeatureMatch>>;
+
+Cells
+sortIntoCells(const Scan& map, const std::vector<FeatureMatch>& matches, float side)
+{
+  Cells cells;
+  for (const FeatureMatch& match : matches) {
+    const Eigen::Vector3f place = pointOf(map, static_cast<std::size_t>(match.match));
+    Cell cell;
+    for (int axis = 0; axis < 3; ++axis)
+      cell[static_cast<std::size_t>(axis)] =
+          static_cast<std::int64_t>(std::floor(place[axis] / side));
+    cells[cell].push_back(match);
+  }
+  return cells;
+}
+
+/** \brief Matches in a cell and those around it: of each keypoint of the scan the nearest. */
+std::vector<FeatureMatch>
+matchesAround(const Cells& cells, const Cell& cell)
+{
+  std::vector<FeatureMatch> here;
+  for (std::int64_t x = -1; x <= 1; ++x)
+    for (std::int64_t y = -1; y <= 1; ++y)
+      for (std::int64_t z = -1; z <= 1; ++z) {
+        const auto found = cells.find({cell[0] + x, cell[1] + y, cell[2] + z});
+        if (found != cells.end())
+          here.insert(here.end(), found->second.begin(), found->second.end());
+      }
+  std::sort(here.begin(), here.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.query, a.squared_distance, a.match) <
+           std::tie(b.query, b.squared_distance, b.match);
+  });
+  static const int K=getenv("X_K")?atoi(getenv("X_K")):1;
+  std::vector<FeatureMatch> out; int q=-1,n=0;
+  for(auto&m:here){ if(m.query!=q){q=m.query;n=0;} if(n++<K) out.push_back(m);} 
+  return out;
+}
+
+bool
+touching(const Cell& a, const Cell& b)
+{
+  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) <= 1;
+}
+
+} // namespace
+
+bool
+isMapFor(const Scan& map, const Scan& scan)
+{
+  return Vicinity::isMuchLarger(map.size(), scan.size());
+}
+
+std::vector<std::vector<FeatureMatch>>
+matchesByPlace(const Scan& scan,
+               const Scan& map,
+               const std::vector<FeatureMatch>& matches,
+               std::size_t most)
+{
+  static const float A=getenv("X_A")?atof(getenv("X_A")):1;
+  const Cells cells = sortIntoCells(map, matches, A*radiusOf(scan));
+  static const double P=getenv("X_P")?atof(getenv("X_P")):0;
+  struct Place {
+    double rank;
+    Cell cell;
+    std::vector<FeatureMatch> matches;
+  };
+  std::map<Cell,size_t> pts; if(P!=0){ const float side=A*radiusOf(scan); for(size_t i=0;i<map.size();i++){ auto p=pointOf(map,i); pts[{(std::int64_t)std::floor(p[0]/side),(std::int64_t)std::floor(p[1]/side),(std::int64_t)std::floor(p[2]/side)}]++; } }
+  std::vector<Place> places;
+  for (const auto& [cell, own] : cells) {
+    Place p{0,cell,matchesAround(cells, cell)};
+    std::size_t n=0; int q=-1; for(auto&m:p.matches){ if(m.query!=q) n++; q=m.query; }
+    p.rank=n;
+    if(P!=0){ double c=0; for (std::int64_t x = -1; x <= 1; ++x) for (std::int64_t y = -1; y <= 1; ++y) for (std::int64_t z = -1; z <= 1; ++z){ auto f=pts.find({cell[0] + x, cell[1] + y, cell[2] + z}); if(f!=pts.end()) c+=f->second; } p.rank/=std::pow(c+200,P); }
+    places.push_back(std::move(p));
+  }
+  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) {
+    return a.rank > b.rank;
+  });
+  std::vector<Cell> taken;
+  std::vector<std::vector<FeatureMatch>> result;
+  for (Place& place : places) {
+    if (result.size() == most)
+      break;
+    if (std::any_of(taken.begin(), taken.end(), [&](const Cell& other) {
+          return touching(place.cell, other);
+        }))
+      continue;
+    taken.push_back(place.cell);
+    result.push_back(std::move(place.matches));
+  }
+  return result;
+}
+
+} // namespace pcl_flashreg
