@@ -62,6 +62,7 @@ evidenceOf(const Evidence& evidence)
     json["overruled_viewpoints"] = evidence.overruled_viewpoints;
     json["sides"] = evidence.has_sides;
     json["overruled_sides"] = evidence.overruled_sides;
+    json["in_map"] = evidence.in_map;
     json["second_look"] = evidence.second_look;
     json["matched"] = evidence.agreement.matched;
     json["contradicted"] = evidence.agreement.contradicted;

@@ -109,6 +109,10 @@ struct Evidence {
   bool has_sides = false;
   /** \brief Whether these are not believed: without them the clouds are more certain. */
   bool overruled_sides = false;
+  /** \brief Whether one cloud has more than three times as many points as the other: it is a
+   * map, of which the other one has a part in its sight. `agreement` then is as that one sees
+   * it. */
+  bool in_map = false;
   /** \brief Whether it took a second look (PairOptions::second_look). `inliers` then is the mean
    * of matches from the source's side and from the target's. */
   bool second_look = false;

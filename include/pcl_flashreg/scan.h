@@ -138,6 +138,13 @@ public:
   Scan
   withoutViewpoint() const;
 
+  /** \brief The part of the scan whose keypoints lie within a ball; in the same frame, with the
+   * same shift, seen from the same place.
+   * \param[in] centre in the caller's frame
+   * \param[in] radius in the unit of the cloud, >= 0 */
+  Scan
+  within(const Eigen::Vector3d& centre, double radius) const;
+
   /** \brief The scan as bytes, the same for the same scan on every machine: a header with
    * the version of the format, the arrays, a checksum. */
   std::string

@@ -39,6 +39,8 @@ constexpr int WALKS = 3;
 /** \brief A pose that is less certain than this does not overrule viewpoints, and one that is
  * more certain with them than that is not overruled. */
 constexpr double LEAST_TO_OVERRULE = 0.01, NOT_TO_OVERRULE = 0.9;
+/** \brief In a map viewpoints that are wrong leave less. */
+constexpr double NOT_TO_OVERRULE_IN_MAP = 0.6;
 
 /** \brief A pose that is less certain than this, whatever its walk would say, is hopeless. */
 constexpr double HOPELESS = 0.1;
@@ -255,6 +257,7 @@ private:
     evidence.has_viewpoints = clouds_.viewpoints() > 0;
     evidence.has_sides = clouds_.hasSides();
     evidence.one_viewpoint = clouds_.viewpoints() == 1;
+    evidence.in_map = clouds_.vicinity != nullptr;
     evidence.agreement = look_closely_(first.pose);
     evidence.lead = MAX_LEAD;
     // They are in order.
@@ -327,12 +330,22 @@ CloudCheck::addWitnesses(const Problem& correspondences)
 
 void
 CloudCheck::addPoses(const std::vector<Pose>& hypotheses,
-                     const std::vector<ScoredPose>& favourites)
+                     const std::vector<ScoredPose>& favourites,
+                     std::size_t screened)
 {
+  if (favourites.empty())
+    return;
+  std::vector<Pose> best;
   for (const ScoredPose& favourite : favourites)
-    list_.push_back(favourite.pose);
-  if (!favourites.empty())
-    screen(clouds_, hypotheses, half_side_, list_, pool_);
+    best.push_back(favourite.pose);
+  if (!clouds_.vicinity) {
+    list_.insert(list_.end(), best.begin(), best.end());
+    screen(clouds_, hypotheses, half_side_, screened, list_, pool_);
+    return;
+  }
+  // In a map a glance tells more than correspondences do.
+  best.insert(best.end(), hypotheses.begin(), hypotheses.end());
+  screen(clouds_, best, half_side_, screened, list_, pool_);
 }
 
 void
@@ -368,7 +381,7 @@ CloudCheck::judge()
   CloudFindings findings = judgeIn(0);
   for (std::size_t i = 1; i < beliefs_.size(); ++i) {
     const double before = confidenceOfClouds(findings.evidence);
-    if (before > NOT_TO_OVERRULE)
+    if (before > (clouds_.vicinity ? NOT_TO_OVERRULE_IN_MAP : NOT_TO_OVERRULE))
       break;
     // What is more certain without the viewpoints says that they are wrong.
     CloudFindings others = judgeIn(i);

@@ -17,8 +17,8 @@ constexpr float TOLERANCE = 2, MARGIN = 3;
 /** \brief Points of a cloud that are looked at first, and where that went well. */
 constexpr std::size_t GLANCE = 24, CLOSER_LOOK = 128;
 
-/** \brief Hypotheses that pass the first screening, and the second. */
-constexpr std::size_t AFTER_GLANCE = 400, AFTER_LOOK = 12;
+/** \brief Hypotheses that pass the first screening. */
+constexpr std::size_t AFTER_GLANCE = 400;
 
 /** \brief Poses are the same if no corner of the cube around the source moves by more
  * than this many spacings. */
@@ -64,6 +64,7 @@ void
 screen(const SurfacePair& clouds,
        const std::vector<Pose>& hypotheses,
        double half_side,
+       std::size_t most,
        std::vector<Pose>& list,
        ThreadPool& pool)
 {
@@ -78,7 +79,7 @@ screen(const SurfacePair& clouds,
   }
   rank(Look(clouds, CLOSER_LOOK, TOLERANCE, MARGIN), hypotheses, ranked, pool);
   std::sort(ranked.begin(), ranked.end(), better);
-  const std::size_t wanted = list.size() + AFTER_LOOK;
+  const std::size_t wanted = list.size() + most;
   for (const Ranked& entry : ranked) {
     if (list.size() == wanted)
       return;

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace pcl_flashreg {
@@ -79,12 +79,14 @@ matchesAround(const Cells& cells, const Cell& cell)
     return std::tie(a.query, a.squared_distance, a.match) <
            std::tie(b.query, b.squared_distance, b.match);
   });
-  static const int K=getenv("X_K")?atoi(getenv("X_K")):1;
-  std::vector<FeatureMatch> out; int q=-1,n=0;
-  for(auto&m:here){ if(m.query!=q){q=m.query;n=0;} if(n++<K) out.push_back(m);} 
-  return out;
+  const auto sameQuery = [](const FeatureMatch& a, const FeatureMatch& b) {
+    return a.query == b.query;
+  };
+  here.erase(std::unique(here.begin(), here.end(), sameQuery), here.end());
+  return here;
 }
 
+/** \brief Whether cells are so near that the places around them are nearly the same. */
 bool
 touching(const Cell& a, const Cell& b)
 {
@@ -105,25 +107,16 @@ matchesByPlace(const Scan& scan,
                const std::vector<FeatureMatch>& matches,
                std::size_t most)
 {
-  static const float A=getenv("X_A")?atof(getenv("X_A")):1;
-  const Cells cells = sortIntoCells(map, matches, A*radiusOf(scan));
-  static const double P=getenv("X_P")?atof(getenv("X_P")):0;
+  const Cells cells = sortIntoCells(map, matches, radiusOf(scan));
   struct Place {
-    double rank;
     Cell cell;
     std::vector<FeatureMatch> matches;
   };
-  std::map<Cell,size_t> pts; if(P!=0){ const float side=A*radiusOf(scan); for(size_t i=0;i<map.size();i++){ auto p=pointOf(map,i); pts[{(std::int64_t)std::floor(p[0]/side),(std::int64_t)std::floor(p[1]/side),(std::int64_t)std::floor(p[2]/side)}]++; } }
   std::vector<Place> places;
-  for (const auto& [cell, own] : cells) {
-    Place p{0,cell,matchesAround(cells, cell)};
-    std::size_t n=0; int q=-1; for(auto&m:p.matches){ if(m.query!=q) n++; q=m.query; }
-    p.rank=n;
-    if(P!=0){ double c=0; for (std::int64_t x = -1; x <= 1; ++x) for (std::int64_t y = -1; y <= 1; ++y) for (std::int64_t z = -1; z <= 1; ++z){ auto f=pts.find({cell[0] + x, cell[1] + y, cell[2] + z}); if(f!=pts.end()) c+=f->second; } p.rank/=std::pow(c+200,P); }
-    places.push_back(std::move(p));
-  }
+  for (const auto& [cell, own] : cells)
+    places.push_back({cell, matchesAround(cells, cell)});
   std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) {
-    return a.rank > b.rank;
+    return a.matches.size() > b.matches.size();
   });
   std::vector<Cell> taken;
   std::vector<std::vector<FeatureMatch>> result;

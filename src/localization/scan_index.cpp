@@ -82,10 +82,11 @@ ScanIndex::bytes() const
 {
   const auto ofScan = [](const Scan& scan) {
     const std::size_t floats = 3 + 3 + 1 + scan.features().dimension;
-    return scan.size() * (floats * sizeof(float) +
-                          (scan.origins() ? sizeof(std::int32_t) : 0));
+    return scan.size() *
+           (floats * sizeof(float) + (scan.origins() ? sizeof(std::int32_t) : 0));
   };
-  std::size_t sum = ofScan(data_->scan) + ofScan(data_->coarse) + data_->surface.bytes();
+  std::size_t sum =
+      ofScan(data_->scan) + ofScan(data_->coarse) + data_->surface.bytes();
   for (const auto* features : {&data_->features, &data_->coarse_features})
     if (*features)
       sum += (*features)->bytes();

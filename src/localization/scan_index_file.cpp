@@ -124,10 +124,10 @@ nextFeatures(ArchiveReader& in, const FeatureView& view)
   const Eigen::Index columns = std::min<Eigen::Index>(dimension, SHADOW_COMPONENTS);
   const std::vector<double> components =
       nextNumbers(in, static_cast<std::size_t>(dimension * columns));
-  FeatureSpace space(Eigen::Map<const Eigen::RowVectorXd>(mean.data(), dimension),
-                     Eigen::Map<const Eigen::MatrixXd>(
-                         components.data(), dimension, columns),
-                     numbers[0]);
+  FeatureSpace space(
+      Eigen::Map<const Eigen::RowVectorXd>(mean.data(), dimension),
+      Eigen::Map<const Eigen::MatrixXd>(components.data(), dimension, columns),
+      numbers[0]);
 
   FeatureTree tree;
   tree.order = in.nextCopy<std::int32_t>();
@@ -143,7 +143,8 @@ nextFeatures(ArchiveReader& in, const FeatureView& view)
   require(norms == blocks * cpu::FEATURE_BLOCK && values == norms * view.dimension);
   TargetBlocks transposed(
       in.keeper(), targets, target_norms, blocks, view.dimension, numbers[2]);
-  return {std::move(features), std::move(space), std::move(tree), std::move(transposed)};
+  return {
+      std::move(features), std::move(space), std::move(tree), std::move(transposed)};
 }
 
 void

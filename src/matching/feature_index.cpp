@@ -40,16 +40,15 @@ FeatureIndex::search(const FeatureView& queries, std::size_t k, ThreadPool& pool
   if (!space.hasRoomFor(from))
     return searchFeatures(queries, features.view, k, false, pool).forward;
   const FeatureTree queries_tree = plantTrees({&from}, space, pool).front();
-  return searchNearest(
-      {from, queries_tree}, {features, tree}, blocks, space, k, pool);
+  return searchNearest({from, queries_tree}, {features, tree}, blocks, space, k, pool);
 }
 
 std::size_t
 FeatureIndex::bytes() const
 {
-  const std::size_t rows =
-      features.finite.capacity() + features.rows.capacity() + tree.order.capacity() +
-      features.equal.firsts().capacity() + features.equal.followers().capacity();
+  const std::size_t rows = features.finite.capacity() + features.rows.capacity() +
+                           tree.order.capacity() + features.equal.firsts().capacity() +
+                           features.equal.followers().capacity();
   const std::size_t padded = blocks.blocks() * cpu::FEATURE_BLOCK;
   return rows * sizeof(std::int32_t) + tree.shadows.capacity() * sizeof(Shadow) +
          tree.boxes.capacity() * sizeof(ShadowBox) +

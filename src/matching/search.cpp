@@ -71,8 +71,7 @@ searchFeatures(const FeatureView& queries,
   const std::vector<FeatureTree> trees = plantTrees({&from, &to}, space, pool);
   const FeatureSet sets[2] = {{from, trees[0]}, {to, trees[1]}};
   const auto search = [&](const FeatureSet& side, const FeatureSet& other) {
-    return searchNearest(
-        side, other, TargetBlocks(other, space, pool), space, k, pool);
+    return searchNearest(side, other, TargetBlocks(other, space, pool), space, k, pool);
   };
   MutualMatches matches;
   matches.forward = search(sets[0], sets[1]);

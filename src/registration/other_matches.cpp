@@ -7,9 +7,14 @@
 #include "matching/search.h"
 
 #include <utility>
-#include <cstdlib>
 
 namespace pcl_flashreg {
+namespace {
+
+/** \brief Parts of a map that are looked at, at either resolution. */
+constexpr std::size_t MOST_PLACES = 16;
+
+} // namespace
 
 std::vector<FeatureMatch>
 matchScans(const Scan& source,
@@ -25,13 +30,21 @@ matchScans(const Scan& source,
 std::vector<FeatureMatch>
 matchInMap(const Scan& scan,
            const Scan& map,
-           const ScanIndex::Data* index,
+           const std::optional<FeatureIndex>* index,
            std::size_t neighbors,
            ThreadPool& pool)
 {
-  if (index && index->features)
-    return index->features->search(scan.features(), neighbors, pool);
-  return searchFeatures(scan.features(), map.features(), neighbors, false, pool).forward;
+  if (index)
+    return *index ? (*index)->search(scan.features(), neighbors, pool)
+                  : std::vector<FeatureMatch>();
+  return searchFeatures(scan.features(), map.features(), neighbors, false, pool)
+      .forward;
+}
+
+bool
+OtherMatches::areOurs() const
+{
+  return !scans_.source.origins() && !scans_.target.origins();
 }
 
 Correspondences
@@ -57,59 +70,55 @@ OtherMatches::makeCoarse()
                                 : workers_.maker.coarser(scans_.target, COARSER);
 }
 
+/** \brief Those at either resolution in turn. */
 void
 OtherMatches::findPlaces()
 {
-  const std::size_t most=getenv("X_PL") ? atoi(getenv("X_PL")) : 8;
-  const int F=getenv("X_F")?atoi(getenv("X_F")):3;
-  const auto add = [&](const Scan& scan,
-                       const Scan& map,
-                       const std::vector<FeatureMatch>& matches) {
-    for (const std::vector<FeatureMatch>& place : matchesByPlace(scan, map, matches, most))
-      places_.push_back(toCorrespondences(scan, map, place));
-  };
   ThreadPool& pool = workers_.search.pool();
-  if(F&1) add(scans_.source,
-      scans_.target,
-      scans_.candidates.empty() ? matchInMap(scans_.source,
-                                             scans_.target,
-                                             scans_.index,
-                                             NEIGHBORS_IN_MAP,
-                                             pool)
-                                : scans_.candidates);
-  if (scans_.source.origins() || scans_.target.origins() || !(F&2))
-    return;
-  makeCoarse();
-  const FeatureIndex* const index =
-      scans_.index && scans_.index->coarse_features ? &*scans_.index->coarse_features
-                                                    : nullptr;
-  add(coarse_source_,
-      coarse_target_,
-      index ? index->search(coarse_source_.features(), NEIGHBORS_IN_MAP, pool)
-            : searchFeatures(coarse_source_.features(),
-                             coarse_target_.features(),
-                             NEIGHBORS_IN_MAP,
-                             false,
-                             pool)
-                  .forward);
+  std::vector<std::vector<Correspondences>> found;
+  const auto add =
+      [&](const Scan& scan, const Scan& map, const std::vector<FeatureMatch>& matches) {
+        std::vector<Correspondences>& places = found.emplace_back();
+        for (const auto& place : matchesByPlace(scan, map, matches, MOST_PLACES))
+          places.push_back(toCorrespondences(scan, map, place));
+      };
+  const ScanIndex::Data* const index = scans_.index;
+  const Scan &source = scans_.source, &target = scans_.target;
+  add(source,
+      target,
+      matchInMap(
+          source, target, index ? &index->features : nullptr, NEIGHBORS_IN_MAP, pool));
+  // Who brings descriptors of his own has them for these keypoints alone.
+  if (areOurs()) {
+    makeCoarse();
+    add(coarse_source_,
+        coarse_target_,
+        matchInMap(coarse_source_,
+                   coarse_target_,
+                   index ? &index->coarse_features : nullptr,
+                   NEIGHBORS_IN_MAP,
+                   pool));
+  }
+  for (std::size_t rank = 0; rank < MOST_PLACES; ++rank)
+    for (std::vector<Correspondences>& places : found)
+      if (rank < places.size())
+        places_.push_back({std::move(places[rank]), false, true});
 }
 
 std::optional<OtherCorrespondences>
 OtherMatches::get(std::size_t number)
 {
-  const auto& [source, target, index, candidates] = scans_;
-  if (isMapFor(target, source)&&!getenv("X_NOPL")) {
+  const Scan &source = scans_.source, &target = scans_.target;
+  if (isMapFor(target, source)) {
     if (number == 0)
       findPlaces();
     if (number == places_.size())
       return std::nullopt;
-    return OtherCorrespondences{std::move(places_[number]), false};
+    return std::move(places_[number]);
   }
   if (number == 0)
     return OtherCorrespondences{back(source, target), true};
-  // Who brings descriptors of his own has them for these keypoints alone.
-  const bool are_ours = !source.origins() && !target.origins();
-  if (!are_ours || number > 2)
+  if (!areOurs() || number > 2)
     return std::nullopt;
   if (number == 1) {
     makeCoarse();

@@ -18,11 +18,11 @@ matchScans(const Scan& source,
            ThreadPool& pool);
 
 /** \brief Each keypoint of a scan with its nearest of a map.
- * \param[in] index of the map; null if there is none */
+ * \param[in] index of the map; null if none was made, empty if nothing can be found */
 std::vector<FeatureMatch>
 matchInMap(const Scan& scan,
            const Scan& map,
-           const ScanIndex::Data* index,
+           const std::optional<FeatureIndex>* index,
            std::size_t neighbors,
            ThreadPool& pool);
 
@@ -32,8 +32,6 @@ struct MatchedScans {
   const Scan& target;
   /** \brief Of the target, where it is a map that has one. */
   const ScanIndex::Data* index;
-  /** \brief Of each keypoint of the source with several of a map, if these are known. */
-  const std::vector<FeatureMatch>& candidates;
 };
 
 /** \brief What to match where the first matches, of each source keypoint, leave doubt: each
@@ -57,6 +55,9 @@ public:
   get(std::size_t number);
 
 private:
+  /** \brief Whether descriptors can be made at another resolution. */
+  bool
+  areOurs() const;
   Correspondences
   forth(const Scan& source, const Scan& target) const;
   Correspondences
@@ -71,7 +72,7 @@ private:
   PairWorkers& workers_;
   Scan coarse_source_, coarse_target_;
   /** \brief In a map. */
-  std::vector<Correspondences> places_;
+  std::vector<OtherCorrespondences> places_;
 };
 
 } // namespace pcl_flashreg

@@ -49,20 +49,6 @@ judgeFrom(const Scan& scan, const ScanIndex::Data* index)
   return cloud;
 }
 
-/** \brief Of several matches of each query the first. */
-std::vector<FeatureMatch>
-firstOf(const std::vector<FeatureMatch>& matches, std::size_t most)
-{
-  std::vector<FeatureMatch> first;
-  std::size_t rank = 0;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    rank = i > 0 && matches[i].query == matches[i - 1].query ? rank + 1 : 0;
-    if (rank < most)
-      first.push_back(matches[i]);
-  }
-  return first;
-}
-
 } // namespace
 
 void
@@ -134,7 +120,9 @@ PairCall::makeScans(const PreparedInput& source,
 }
 
 void
-PairCall::takeScans(const Scan& source, const Scan& target, const ScanIndex::Data* index)
+PairCall::takeScans(const Scan& source,
+                    const Scan& target,
+                    const ScanIndex::Data* index)
 {
   result_.source = source;
   result_.target = target;
@@ -158,18 +146,12 @@ PairCall::match()
 {
   begin(PairStep::Matching);
   const detail::Stopwatch watch;
-  if (isMapFor(result_.target, result_.source) && !options_.mutual) {
-    candidates_ = matchInMap(result_.source,
-                             result_.target,
-                             index_,
-                             std::max(options_.neighbors, NEIGHBORS_IN_MAP),
-                             workers_.search.pool());
-    result_.matches = firstOf(candidates_, options_.neighbors);
-  }
-  else {
-    result_.matches =
-        matchScans(result_.source, result_.target, options_, workers_.search.pool());
-  }
+  ThreadPool& pool = workers_.search.pool();
+  const Scan &source = result_.source, &target = result_.target;
+  result_.matches =
+      index_ && !options_.mutual
+          ? matchInMap(source, target, &index_->features, options_.neighbors, pool)
+          : matchScans(source, target, options_, pool);
   result_.timings.matching = watch.milliseconds();
 }
 
@@ -199,8 +181,7 @@ PairCall::estimateFromMatches()
       toCorrespondences(result_.source, result_.target, result_.matches);
   if (!options_.second_look || options_.mutual)
     return estimate(correspondences.view(), {});
-  OtherMatches others(
-      {result_.source, result_.target, index_, candidates_}, options_, workers_);
+  OtherMatches others({result_.source, result_.target, index_}, options_, workers_);
   estimate(correspondences.view(), [&](std::size_t i) { return others.get(i); });
 }
 
@@ -224,20 +205,18 @@ PairCall::estimate(const CorrespondenceView<Scalar>& correspondences,
   result_.correspondences = correspondences.size;
   begin(PairStep::Estimation);
   result_.parameters = options_.parametersFor(result_.resolution);
-  const JudgingClouds clouds{
-      judgeFrom(result_.source, nullptr),
-      judgeFrom(result_.target, index_),
-      result_.resolution,
-      options_.give_up_early};
+  const JudgingClouds clouds{judgeFrom(result_.source, nullptr),
+                             judgeFrom(result_.target, index_),
+                             result_.resolution,
+                             options_.give_up_early};
   const bool ask =
       options_.cloud_check && !result_.source.empty() && !result_.target.empty();
-  result_.pose = workers_.search.run(correspondences,
-                                     result_.parameters,
-                                     exchanged_ && options_.guess
-                                         ? inverseOf(*options_.guess)
-                                         : options_.guess,
-                                     ask ? &clouds : nullptr,
-                                     second_look);
+  result_.pose = workers_.search.run(
+      correspondences,
+      result_.parameters,
+      exchanged_ && options_.guess ? inverseOf(*options_.guess) : options_.guess,
+      ask ? &clouds : nullptr,
+      second_look);
   result_.timings.estimation = result_.pose.timings_ms;
 }
 

@@ -88,8 +88,6 @@ private:
   bool exchanged_ = false;
   /** \brief Of the target, where it is a map that has one. */
   const ScanIndex::Data* index_ = nullptr;
-  /** \brief Matches of each keypoint with several of a map. */
-  std::vector<FeatureMatch> candidates_;
   detail::Stopwatch total_;
 };
 

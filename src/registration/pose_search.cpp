@@ -47,8 +47,18 @@ checkInput(const CorrespondenceView<Scalar>& in)
  * more of them where the clouds choose. */
 constexpr int LISTED = 5, LISTED_FOR_CLOUDS = 20;
 
-/** \brief Hypotheses of a second look that need not pass the screening. */
-constexpr std::size_t FAVOURITES_OF_OTHERS = 8;
+/** \brief How many hypotheses come before the clouds. */
+struct Passing {
+  /** \brief Those that need not pass the screening, and those that do. */
+  std::size_t favourites, screened;
+};
+
+/** \brief Of a second look, and of one at a part of a map, of which there are many. */
+constexpr Passing OF_OTHERS{8, 12}, OF_PLACE{3, 4};
+constexpr int PIVOTS_OF_PLACE = 500;
+
+/** \brief After so many looks the clouds are asked again. */
+constexpr std::size_t AT_A_TIME = 8;
 
 Parameters
 withRivals(Parameters parameters, bool for_clouds)
@@ -136,36 +146,52 @@ PoseSearch::addSecondBest(const Parameters& parameters,
 
 /** \brief Brings before the clouds what other correspondences speak for. */
 void
+PoseSearch::lookAt(const OtherCorrespondences& other,
+                   const Parameters& parameters,
+                   Problem& problem,
+                   CloudCheck& check)
+{
+  prepareLike(preparation_,
+              other.correspondences.view(),
+              static_cast<std::size_t>(parameters.max_correspondences),
+              problem);
+  if (other.are_witnesses)
+    check.addWitnesses(problem);
+  if (problem.size < 3)
+    return;
+  Parameters for_others = withRivals(parameters, !other.of_place);
+  if (other.of_place)
+    for_others.pivots = std::min(for_others.pivots, PIVOTS_OF_PLACE);
+  StageTimings unused;
+  StageClock clock(unused);
+  PoseEstimate found = backend_->run(problem,
+                                     for_others,
+                                     std::nullopt,
+                                     /* with_candidates */ true,
+                                     clock,
+                                     nullptr);
+  const Passing& passing = other.of_place ? OF_PLACE : OF_OTHERS;
+  found.hypotheses.resize(std::min(found.hypotheses.size(), passing.favourites));
+  check.addPoses(found.candidates, found.hypotheses, passing.screened);
+}
+
+/** \brief Does that with some of them, from the first on.
+ * \return whether there may be more */
+bool
 PoseSearch::lookAgain(const SecondLook& second_look,
+                      std::size_t first,
                       const Parameters& parameters,
                       CloudCheck& check)
 {
-  StageTimings unused;
-  StageClock clock(unused);
-  for (std::size_t i = 0;; ++i) {
+  for (std::size_t i = first; i < first + AT_A_TIME; ++i) {
     const std::optional<OtherCorrespondences> other = second_look(i);
     if (!other)
-      return;
+      return false;
     if (others_.size() <= i)
       others_.emplace_back();
-    Problem& problem = others_[i];
-    prepareLike(preparation_,
-                other->correspondences.view(),
-                static_cast<std::size_t>(parameters.max_correspondences),
-                problem);
-    if (other->are_witnesses)
-      check.addWitnesses(problem);
-    if (problem.size < 3)
-      continue;
-    PoseEstimate found = backend_->run(problem,
-                                       withRivals(parameters, true),
-                                       std::nullopt,
-                                       /* with_candidates */ true,
-                                       clock,
-                                       nullptr);
-    found.hypotheses.resize(std::min(found.hypotheses.size(), FAVOURITES_OF_OTHERS));
-    check.addPoses(found.candidates, found.hypotheses);
+    lookAt(*other, parameters, others_[i], check);
   }
+  return true;
 }
 
 /** \brief Replaces the hypotheses by those that stand before the clouds, unless the best
@@ -183,9 +209,11 @@ PoseSearch::askClouds(const JudgingClouds& clouds,
   check.addPoses(estimate.candidates, estimate.hypotheses);
   CloudFindings findings = check.judge();
   clock.finish(&StageTimings::cloud_check);
-  if (second_look &&
-      confidenceOfClouds(findings.evidence) < parameters.min_confidence) {
-    lookAgain(second_look, parameters, check);
+  bool may_be_more = static_cast<bool>(second_look);
+  for (std::size_t first = 0;
+       may_be_more && confidenceOfClouds(findings.evidence) < parameters.min_confidence;
+       first += AT_A_TIME) {
+    may_be_more = lookAgain(second_look, first, parameters, check);
     CloudFindings again = check.judge();
     again.evidence.second_look = true;
     // Of many poses that nothing speaks for the best is none better than the first.
@@ -193,7 +221,8 @@ PoseSearch::askClouds(const JudgingClouds& clouds,
       findings = std::move(again);
     clock.finish(&StageTimings::second_look);
   }
-  if (findings.evidence.inliers < 3)
+  // Those of a map's places are others than the first look's.
+  if (findings.evidence.inliers < 3 && !findings.evidence.in_map)
     return {};
   takeOver(findings, parameters, estimate);
   return findings;

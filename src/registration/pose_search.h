@@ -68,6 +68,8 @@ struct OtherCorrespondences {
   /** \brief Whether they count as those of the first look do: of the same keypoints, and so
    * about as many that agree with the right pose. */
   bool are_witnesses = false;
+  /** \brief Whether they are of one of many parts of a map: few of its hypotheses count. */
+  bool of_place = false;
 };
 
 /** \brief Hands them out one after the other, as they are wanted; nothing at the end. */
@@ -123,10 +125,16 @@ private:
             const SecondLook& second_look,
             PoseEstimate& estimate,
             StageClock& clock);
-  void
+  bool
   lookAgain(const SecondLook& second_look,
+            std::size_t first,
             const Parameters& parameters,
             CloudCheck& check);
+  void
+  lookAt(const OtherCorrespondences& other,
+         const Parameters& parameters,
+         Problem& problem,
+         CloudCheck& check);
   void
   takeOver(const CloudFindings& findings,
            const Parameters& parameters,

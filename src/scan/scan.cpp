@@ -6,6 +6,7 @@
 #include "scan/scan_data.h"
 
 #include <utility>
+#include <vector>
 
 namespace pcl_flashreg {
 
@@ -80,6 +81,45 @@ Scan
 Scan::withoutViewpoint() const
 {
   return {data_, Eigen::Vector3d::Zero(), ViewpointSource::Unknown};
+}
+
+namespace {
+
+/** \brief Some rows of an array that has so many values a row. */
+template <typename Value>
+void
+takeRows(const Array<Value>& from,
+         const std::vector<std::size_t>& rows,
+         std::size_t length,
+         Array<Value>& to)
+{
+  std::vector<Value> values;
+  if (!from.empty())
+    for (const std::size_t row : rows)
+      values.insert(values.end(), &from[row * length], &from[row * length] + length);
+  to = std::move(values);
+}
+
+} // namespace
+
+Scan
+Scan::within(const Eigen::Vector3d& centre, double radius) const
+{
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < size(); ++i)
+    if ((point(i) - centre).squaredNorm() <= radius * radius)
+      rows.push_back(i);
+  const auto part = std::make_shared<Data>();
+  takeRows(data_->points, rows, 3, part->points);
+  takeRows(data_->normals, rows, 3, part->normals);
+  takeRows(data_->curvatures, rows, 1, part->curvatures);
+  takeRows(data_->descriptors, rows, data_->dimension, part->descriptors);
+  takeRows(data_->origins, rows, 1, part->origins);
+  part->dimension = data_->dimension;
+  part->normals_oriented = data_->normals_oriented;
+  part->spacing = data_->spacing;
+  part->shift = data_->shift;
+  return {part, viewpoint_.value_or(Eigen::Vector3d::Zero()), viewpoint_source_};
 }
 
 } // namespace pcl_flashreg

@@ -90,10 +90,10 @@ checkedHeader(std::string_view bytes, std::string_view magic, std::uint32_t vers
     throw ArchiveError("is incomplete or damaged: it has " +
                        std::to_string(bytes.size()) + " bytes, its header says " +
                        std::to_string(header.size));
-  if (header.sections > bytes.size() / ROW || arraysAt(header.sections) > bytes.size() ||
-      header.table_checksum !=
-          checksumOf(bytes.data() + sizeof(Header),
-                     arraysAt(header.sections) - sizeof(Header)))
+  if (header.sections > bytes.size() / ROW ||
+      arraysAt(header.sections) > bytes.size() ||
+      header.table_checksum != checksumOf(bytes.data() + sizeof(Header),
+                                          arraysAt(header.sections) - sizeof(Header)))
     throw ArchiveError("is damaged: its table is not what was written");
   return header;
 }
@@ -172,7 +172,8 @@ ArchiveReader::ArchiveReader(std::string_view bytes,
         size > bytes.size() - at || width == 0 || size % width != 0)
       throw ArchiveError("is damaged: an array lies outside of it");
   }
-  if (verify && header.checksum != checksumOf(bytes.data() + begin, bytes.size() - begin))
+  if (verify &&
+      header.checksum != checksumOf(bytes.data() + begin, bytes.size() - begin))
     throw ArchiveError("is damaged: its checksum is not that of its contents");
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
   const auto copy = swappedCopy(bytes, sections_);

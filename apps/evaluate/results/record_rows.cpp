@@ -33,6 +33,7 @@ resultColumns()
           "has_clouds",
           "has_viewpoints",
           "has_sides",
+          "in_map",
           "support",
           "matched",
           "contradicted",
@@ -87,6 +88,7 @@ resultCells(const Record& r)
                 flag(e.has_clouds),
                 flag(e.has_viewpoints),
                 flag(e.has_sides),
+                flag(e.in_map),
                 io::toText(e.inliers),
                 io::toText(e.agreement.matched),
                 io::toText(e.agreement.contradicted),
@@ -145,6 +147,7 @@ recordFromCells(const std::vector<std::string>& cells)
   e.has_clouds = reader.flag();
   e.has_viewpoints = reader.flag();
   e.has_sides = reader.flag();
+  e.in_map = reader.flag();
   e.inliers = reader.number();
   e.agreement.matched = reader.number();
   e.agreement.contradicted = reader.number();

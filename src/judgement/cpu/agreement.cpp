@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace pcl_flashreg {
 namespace {
@@ -163,17 +162,18 @@ seenFromOne(const OneSees& one)
   const auto& [seeing, seen] = one;
   // Points of the other cloud that hang in the empty space, over what would fill the view.
   const double contradicting = seen.share(seen.contradicted) * seen.stand_for;
-  return {seeing.share(seeing.matched),
-          std::min(1.0, contradicting / seeing.stand_for),
-          0};
+  return {
+      seeing.share(seeing.matched), std::min(1.0, contradicting / seeing.stand_for), 0};
 }
+
+/** \brief By how much of a point one counts that the map does not show. */
+constexpr double MISSING = 0.1;
 
 /** \brief As the scan sees it that is looked for in a map. What a map does not show speaks
  * against a place, too: elsewhere it would be explained. */
 CloudAgreement
 seenInMap(const Sums& scan, const Sums& map)
 {
-  const double MISSING = getenv("X_MISS") ? atof(getenv("X_MISS")) : 0.1;
   const double missing = scan.points - scan.matches - scan.contradicted;
   const double contradicting = map.share(map.contradicted) * map.stand_for;
   return {scan.share(scan.matched),
@@ -247,8 +247,8 @@ Look::operator()(const Pose& pose) const
     agreement = seenFromBoth(there, back);
   }
   else {
-    const OneSees one = clouds_.source.free_space.known() ? OneSees{there, back}
-                                                          : OneSees{back, there};
+    const OneSees one =
+        clouds_.source.free_space.known() ? OneSees{there, back} : OneSees{back, there};
     agreement = clouds_.hasSides() ? seenFromOneWithSides(one) : seenFromOne(one);
   }
   agreement.residual = residualOf(there, back, spacing);

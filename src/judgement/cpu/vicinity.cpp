@@ -72,8 +72,8 @@ Vicinity::layOut(const Surface& target)
     const std::size_t begin = i;
     while (i < target.keys.size() && target.keys[i] >> shift == key)
       ++i;
-    cells_[numberOf(cellOfZOrderKey(key), counts_)] = {static_cast<std::uint32_t>(begin),
-                                                       static_cast<std::uint32_t>(i)};
+    cells_[numberOf(cellOfZOrderKey(key), counts_)] = {
+        static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(i)};
   }
 }
 

@@ -21,7 +21,10 @@ public:
   PointRanges() = default;
 
   /** \brief The first so many. */
-  explicit PointRanges(std::size_t count) { add({0, static_cast<std::uint32_t>(count)}); }
+  explicit PointRanges(std::size_t count)
+  {
+    add({0, static_cast<std::uint32_t>(count)});
+  }
 
   /** \brief Behind those that are there already. */
   void
