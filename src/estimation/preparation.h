@@ -23,12 +23,13 @@ struct Preparation {
 };
 
 /** \brief Leaves out rows that are not finite, keeps the best-ranked max_correspondences,
- * subtracts the centroids in double precision and packs the rest.
+ * subtracts the centroids in double precision and packs the rest, with what the motion model
+ * asks of poses.
  */
 template <typename Scalar>
 void
 prepare(const CorrespondenceView<Scalar>& correspondences,
-        std::size_t max_correspondences,
+        const Parameters& parameters,
         Preparation& preparation,
         Problem& problem);
 
@@ -38,7 +39,7 @@ template <typename Scalar>
 void
 prepareLike(const Preparation& centred,
             const CorrespondenceView<Scalar>& correspondences,
-            std::size_t max_correspondences,
+            const Parameters& parameters,
             Problem& problem);
 
 /** \brief The same for who does not ask what became of the rows. */
@@ -49,20 +50,17 @@ prepare(const CorrespondenceView<Scalar>& correspondences,
         Problem& problem)
 {
   Preparation preparation;
-  prepare(correspondences,
-          static_cast<std::size_t>(parameters.max_correspondences),
-          preparation,
-          problem);
+  prepare(correspondences, parameters, preparation, problem);
 }
 
 extern template void
-prepare(const CorrespondenceView<float>&, std::size_t, Preparation&, Problem&);
+prepare(const CorrespondenceView<float>&, const Parameters&, Preparation&, Problem&);
 extern template void
-prepare(const CorrespondenceView<double>&, std::size_t, Preparation&, Problem&);
+prepare(const CorrespondenceView<double>&, const Parameters&, Preparation&, Problem&);
 extern template void
 prepareLike(const Preparation&,
             const CorrespondenceView<double>&,
-            std::size_t,
+            const Parameters&,
             Problem&);
 
 } // namespace pcl_flashreg

@@ -44,6 +44,17 @@ planned(const Motion& motion, const Pose& pose, float spacing)
   return walk;
 }
 
+/** \brief Whether a pose that is not on the surface yet may come to tilt no more than it
+ * may: by three degrees more now. */
+bool
+nearlyUpright(const Upright& upright, const Pose& pose)
+{
+  constexpr double COSINE = 0.99863, SINE = 0.05234;
+  return !upright.required ||
+         dot(rotate(pose.r, upright.source_up), upright.target_up) >=
+             upright.cosine * COSINE - upright.sine * SINE;
+}
+
 } // namespace
 
 double
@@ -75,7 +86,7 @@ walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool)
 }
 
 std::vector<Pose>
-peaksOf(const std::vector<Walk>& walks, std::size_t most)
+peaksOf(const std::vector<Walk>& walks, const Upright& upright, std::size_t most)
 {
   struct Peak {
     double height;
@@ -89,7 +100,7 @@ peaksOf(const std::vector<Walk>& walks, std::size_t most)
     };
     for (std::size_t i = 0; i < walk.stops.size(); ++i)
       if (std::abs(walk.stops[i].way) >= walk.far && height(i) >= height(i - 1) &&
-          height(i) > height(i + 1))
+          height(i) > height(i + 1) && nearlyUpright(upright, walk.stops[i].pose))
         peaks.push_back({height(i), walk.stops[i].pose});
   }
   std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) {

@@ -147,10 +147,7 @@ PoseSearch::lookAgain(const SecondLook& second_look,
     if (others_.size() <= i)
       others_.emplace_back();
     Problem& problem = others_[i];
-    prepareLike(preparation_,
-                other->correspondences.view(),
-                static_cast<std::size_t>(parameters.max_correspondences),
-                problem);
+    prepareLike(preparation_, other->correspondences.view(), parameters, problem);
     if (other->are_witnesses)
       check.addWitnesses(problem);
     if (problem.size < 3)
@@ -283,7 +280,8 @@ PoseSearch::prepareClouds(const JudgingClouds& clouds)
     else
       build(clouds.target, preparation_.target_centre, target_surface_);
   });
-  return {source_surface_, target_surface_, spacing};
+  return {
+      source_surface_, target_surface_, spacing, Belief::Viewpoints, problem_.upright};
 }
 
 template <typename Scalar>
@@ -299,16 +297,16 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
   Result result;
   result.backend = backend_->name();
   StageClock clock(result.timings_ms);
-  prepare(correspondences,
-          static_cast<std::size_t>(parameters.max_correspondences),
-          preparation_,
-          problem_);
+  prepare(correspondences, parameters, preparation_, problem_);
   result.correspondences_used = preparation_.rows.size();
   result.correspondences_dropped = preparation_.dropped;
   result.correspondences_invalid = preparation_.invalid;
   std::optional<Pose> centred_guess;
-  if (guess && guess->rotation.allFinite() && guess->translation.allFinite())
+  if (guess && guess->rotation.allFinite() && guess->translation.allFinite()) {
     centred_guess = toCentred(*guess);
+    // Turned back about the centre of the source.
+    limitTilt(problem_.upright, centred_guess->r);
+  }
   clock.finish(&StageTimings::preparation);
 
   if (problem_.size >= 3) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "judgement/cpu/surface.h"
+#include "math/upright.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +31,14 @@ struct SurfacePair {
   /** \brief Distance of neighbouring points. */
   float spacing;
   Belief belief = Belief::Viewpoints;
+  /** \brief What poses keep to. */
+  Upright upright = {};
 
   /** \brief The same clouds, of which another thing is believed. */
   SurfacePair
   believing(Belief other) const
   {
-    return {source, target, spacing, other};
+    return {source, target, spacing, other, upright};
   }
 
   /** \brief Viewpoints that are known and believed. */
