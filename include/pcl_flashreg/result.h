@@ -94,6 +94,10 @@ struct Evidence {
   /** \brief By how many standard deviations a reflection of the source explains the
    * correspondences better than a motion: clearly above 0 if one of the clouds is mirrored. */
   double mirrored = 0;
+  /** \brief Of upright motions, by how much, as a logarithm, a pose that gravity forbids
+   * explains more: clearly above 0 if its direction is wrong. 0 where there is none, and of
+   * rigid motions. */
+  double tilted = 0;
 
   /** \brief Whether the clouds were asked: the rest is 0 where not. */
   bool has_clouds = false;

@@ -3,6 +3,8 @@
 
 #include "judgement/walk.h"
 
+#include "judgement/tilt.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,6 +30,9 @@ constexpr double FAR = 9;
  * them near. */
 constexpr int STEPS_TO_HALF_TURN = 9;
 
+/** \brief In degrees more than a pose may tilt: it is not on the surface yet. */
+constexpr double MOST_TILT = 3;
+
 constexpr double PI = 3.14159265358979323846;
 
 Walk
@@ -42,17 +47,6 @@ planned(const Motion& motion, const Pose& pose, float spacing)
   for (int i = -count; i <= count; ++i)
     walk.stops.push_back({i * step, moveAlong(pose, motion, i * step), {}});
   return walk;
-}
-
-/** \brief Whether a pose that is not on the surface yet may come to tilt no more than it
- * may: by three degrees more now. */
-bool
-nearlyUpright(const Upright& upright, const Pose& pose)
-{
-  constexpr double COSINE = 0.99863, SINE = 0.05234;
-  return !upright.required ||
-         dot(rotate(pose.r, upright.source_up), upright.target_up) >=
-             upright.cosine * COSINE - upright.sine * SINE;
 }
 
 } // namespace
@@ -100,7 +94,8 @@ peaksOf(const std::vector<Walk>& walks, const Upright& upright, std::size_t most
     };
     for (std::size_t i = 0; i < walk.stops.size(); ++i)
       if (std::abs(walk.stops[i].way) >= walk.far && height(i) >= height(i - 1) &&
-          height(i) > height(i + 1) && nearlyUpright(upright, walk.stops[i].pose))
+          height(i) > height(i + 1) &&
+          !tiltsBeyond(upright, walk.stops[i].pose, MOST_TILT))
         peaks.push_back({height(i), walk.stops[i].pose});
   }
   std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) {

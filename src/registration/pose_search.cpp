@@ -6,6 +6,7 @@
 #include "judgement/confidence.h"
 #include "judgement/evidence.h"
 #include "judgement/mirror.h"
+#include "judgement/tilt.h"
 #include "estimation/information.h"
 #include "estimation/leftover.h"
 #include "math/distinctness.h"
@@ -54,6 +55,15 @@ withRivals(Parameters parameters, bool for_clouds)
   parameters.max_hypotheses =
       std::max(parameters.max_hypotheses, for_clouds ? LISTED_FOR_CLOUDS : LISTED);
   return parameters;
+}
+
+/** \brief With which the clouds came to it. */
+Belief
+beliefOf(const Evidence& evidence)
+{
+  if (evidence.has_sides)
+    return Belief::Sides;
+  return evidence.has_viewpoints ? Belief::Viewpoints : Belief::Nothing;
 }
 
 /** \brief The most inliers that a hypothesis other than the first has. */
@@ -191,6 +201,9 @@ PoseSearch::askClouds(const JudgingClouds& clouds,
   if (findings.evidence.inliers < 3)
     return {};
   takeOver(findings, parameters, estimate);
+  const SurfacePair believed = surfaces.believing(beliefOf(findings.evidence));
+  findings.evidence.tilted = tiltedEvidence(
+      problem_, &believed, findings.poses.front().pose, parameters.inlier_distance);
   return findings;
 }
 
@@ -330,6 +343,11 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
     if (estimate.status == Status::Ok)
       findings.evidence.mirrored = mirroredEvidence(
           problem_, estimate.cliques, motions, parameters.inlier_distance, pool_);
+    if (estimate.status == Status::Ok && !findings.evidence.has_clouds)
+      findings.evidence.tilted = tiltedEvidence(problem_,
+                                                nullptr,
+                                                estimate.hypotheses.front().pose,
+                                                parameters.inlier_distance);
     fill(result, estimate, findings, parameters);
     clock.finish(&StageTimings::cloud_check);
   }
