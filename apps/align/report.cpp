@@ -102,14 +102,11 @@ std::string
 formatWant(const Evidence& evidence)
 {
   // Where the confidence is at most an even chance (docs/method.md).
-  constexpr double MIRRORED = 1.2, TILTED = 0.25, SOFT = 0.004, LOOSE = 0.2, RIVALS = 1,
-                   NARROW = 1;
+  constexpr double MIRRORED = 1.2, SOFT = 0.004, LOOSE = 0.2, RIVALS = 1, NARROW = 1;
   if (evidence.mirrored > MIRRORED)
     return "a mirror image explains the correspondences better: is an axis flipped?";
-  if (evidence.tilted > TILTED)
-    return "a pose that tilts more explains the correspondences better: is the "
-           "direction "
-           "of gravity right?";
+  if (evidence.tilted > RIVALS)
+    return "a pose that gravity forbids explains more: is its direction right?";
   if (evidence.has_clouds) {
     if (evidence.stiffness < SOFT || evidence.hold < LOOSE)
       return "the clouds match as well where it is moved off";

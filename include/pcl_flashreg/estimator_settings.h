@@ -43,7 +43,8 @@ public:
 
   /** \brief Upright motion: the directions of gravity in the frames of source and target, or
    * the opposite ones of both, of any length > 0; (0, 0, 1) by default. Holds whatever
-   * setParameters() says of it. One that can't be is reported by the computation. */
+   * setParameters() says of it. One that can't be is reported by the computation. Of many
+   * clouds each is a source or a target: both are the same for these. */
   void
   setGravity(const Eigen::Vector3d& source, const Eigen::Vector3d& target)
   {

@@ -53,11 +53,11 @@ notMirrored(const Evidence& e)
   return logistic(3 * (1.2 - e.mirrored));
 }
 
-/** \brief Where a pose that gravity forbids explains more, gravity may be wrong. */
+/** \brief Where a pose that gravity forbids explains as much, gravity may be wrong. */
 double
 notTilted(const Evidence& e)
 {
-  return 1 / (1 + std::pow(e.tilted / 0.25, 4));
+  return 1 / (1 + std::pow(e.tilted, 1.5));
 }
 
 /** \brief What every pose needs that clouds are to confirm, whatever else speaks for it: an

@@ -20,6 +20,9 @@ constexpr double TURNED_BACK = -0.1, FORBIDDEN = 5;
  * degrees at a time. */
 constexpr int ROUNDS = 20, MOVES = 3;
 
+/** \brief Of a rival that explains less, or more, as a logarithm. */
+constexpr double STEEPNESS = 4;
+
 /** \brief See Look. */
 constexpr std::size_t POINTS = 1000;
 constexpr float TOLERANCE = 1.5f, MARGIN = 2;
@@ -69,11 +72,11 @@ tiltedEvidence(const Problem& problem,
       released.back() = moveOntoTarget(free, released.back());
   }
   const double weight = weightOf(pose);
-  double lead = 0;
+  double tilted = 0;
   for (const Pose& other : released)
     if (tiltsBeyond(problem.upright, other, FORBIDDEN))
-      lead = std::max(lead, weightOf(other) - weight);
-  return lead;
+      tilted = std::max(tilted, std::exp(STEEPNESS * (weightOf(other) - weight)));
+  return tilted;
 }
 
 } // namespace pcl_flashreg

@@ -56,9 +56,11 @@ perpendicularTo(const Vec3& v)
 PCL_FLASHREG_HD inline bool
 limitTilt(const Upright& upright, double r[9])
 {
+  if (!upright.required)
+    return false;
   const Vec3 up = rotate(r, upright.source_up);
   const double cosine = dot(up, upright.target_up);
-  if (!upright.required || !(cosine < upright.cosine))
+  if (!(cosine < upright.cosine))
     return false;
   constexpr double TURNED_OVER = 1e-9;
   const Vec3 across = cross(up, upright.target_up);
