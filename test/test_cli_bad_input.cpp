@@ -152,7 +152,7 @@ TEST_F(CliBadInput, gravityThatIsNone)
                 std::string(given).substr(0, std::string(given).find(' ')) +
                     ": says nothing without --upright");
   for (const char* direction :
-       {"0,0", "0,0,1,0", "0,0,0", "up", "1,2,", "0;0;1", "nan,0,1", "0,inf,1"})
+       {"0,0", "0,0,1,0", "0,0,0", "up", "1,2,", "0;0;1", "nan,0,1", "0,inf,1", ""})
     for (const char* option : {"--gravity", "--gravity-source", "--gravity-target"})
       expectError(pair + "--upright " + option + " '" + direction + "'",
                   2,

@@ -11,7 +11,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
 namespace pcl_flashreg::program {
 namespace {
@@ -20,22 +23,16 @@ std::array<float, 3>
 directionOf(const std::string& text, const std::string& option)
 {
   std::array<float, 3> direction{};
-  std::string_view rest = text;
-  std::size_t count = 0;
-  for (;; ++count) {
-    const std::size_t comma = rest.find(',');
+  const std::vector<std::string_view> words =
+      io::splitWords(text, /* commas_too */ true);
+  bool numbers = words.size() == direction.size();
+  for (std::size_t i = 0; numbers && i < words.size(); ++i) {
     double value = 0;
-    if (count == direction.size() || !io::parseDouble(rest.substr(0, comma), value))
-      break;
-    direction[count] = static_cast<float>(value);
-    if (comma == std::string_view::npos) {
-      ++count;
-      break;
-    }
-    rest.remove_prefix(comma + 1);
+    numbers = io::parseDouble(words[i], value);
+    direction[i] = static_cast<float>(value);
   }
   const float length = std::hypot(direction[0], direction[1], direction[2]);
-  if (count != direction.size() || !(length > 0) || !std::isfinite(length))
+  if (!numbers || !(length > 0) || !std::isfinite(length))
     throw UsageError(option + ": expected a direction, X,Y,Z, found '" + text + "'");
   return direction;
 }
@@ -44,11 +41,11 @@ directionOf(const std::string& text, const std::string& option)
 const char*
 saidForNothing(const MotionWords& words)
 {
-  if (!words.gravity.empty())
+  if (words.gravity)
     return "--gravity";
-  if (!words.source_gravity.empty())
+  if (words.source_gravity)
     return "--gravity-source";
-  if (!words.target_gravity.empty())
+  if (words.target_gravity)
     return "--gravity-target";
   return words.max_tilt ? "--max-tilt" : nullptr;
 }
@@ -101,13 +98,13 @@ takeMotion(const MotionWords& words, Parameters& parameters)
   if (!words.upright)
     return;
   parameters.motion = MotionModel::Upright;
-  if (!words.gravity.empty())
+  if (words.gravity)
     parameters.source_gravity = parameters.target_gravity =
-        directionOf(words.gravity, "--gravity");
-  if (!words.source_gravity.empty())
-    parameters.source_gravity = directionOf(words.source_gravity, "--gravity-source");
-  if (!words.target_gravity.empty())
-    parameters.target_gravity = directionOf(words.target_gravity, "--gravity-target");
+        directionOf(*words.gravity, "--gravity");
+  if (words.source_gravity)
+    parameters.source_gravity = directionOf(*words.source_gravity, "--gravity-source");
+  if (words.target_gravity)
+    parameters.target_gravity = directionOf(*words.target_gravity, "--gravity-target");
   parameters.max_tilt = words.max_tilt.value_or(parameters.max_tilt);
   try {
     parameters.validate();

@@ -15,8 +15,8 @@ namespace pcl_flashreg::program {
 /** \brief What the options say of the motion model; they are read once all are parsed. */
 struct MotionWords {
   bool upright = false;
-  /** \brief "x,y,z", or empty: of all clouds, and of one alone. */
-  std::string gravity, source_gravity, target_gravity;
+  /** \brief "x,y,z", of all clouds, and of one alone. */
+  std::optional<std::string> gravity, source_gravity, target_gravity;
   std::optional<float> max_tilt;
 };
 
