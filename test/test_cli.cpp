@@ -360,6 +360,37 @@ TEST_F(CliTest, optionsReachTheEstimator)
   EXPECT_EQ(align(common + "--min-confidence 1").status, 1);
 }
 
+TEST_F(CliTest, knowsWhichWayIsUp)
+{
+  writeRoom("source.pcd", "target.pcd");
+  const Eigen::Vector3d down = truth_.rotation.transpose() * -Eigen::Vector3d::UnitZ();
+  std::ostringstream options;
+  options << "source.pcd target.pcd --leaf 0.1 --upright --max-tilt 2 --gravity 0,0,-1 "
+             "--gravity-source "
+          << down.x() << ',' << down.y() << ',' << down.z();
+  const ProgramRun said = align(options.str());
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_NE(said.out.find("motion      upright, up to 2 degrees off"),
+            std::string::npos)
+      << said.out;
+  const auto json = align(options.str() + " --json -").json();
+  expectTruth(poseOf(json));
+  EXPECT_EQ(json.at("evidence").at("tilted"), 0);
+  const auto& parameters = json.at("parameters");
+  EXPECT_EQ(parameters.at("motion"), "upright");
+  EXPECT_EQ(parameters.at("max_tilt"), 2);
+  EXPECT_EQ(parameters.at("target_gravity"), nlohmann::json({0, 0, -1}));
+  EXPECT_NEAR(parameters.at("source_gravity").at(1).get<double>(), down.y(), 1e-5);
+
+  const ProgramRun wrong = align(options.str() + " --gravity-target 0.4,0,-1");
+  EXPECT_EQ(wrong.status, 1) << "20 degrees off: " << wrong.out;
+  EXPECT_EQ(align("source.pcd target.pcd --leaf 0.1 --json -")
+                .json()
+                .at("parameters")
+                .at("motion"),
+            "rigid");
+}
+
 TEST_F(CliTest, theCloudsHaveASayUnlessToldOtherwise)
 {
   writeRoom("source.pcd", "target.pcd");

@@ -140,6 +140,27 @@ TEST_F(CliBadInput, commandLinesThatMakeNoSense)
   expectError("--correspondences c.txt --snapshot a.png", 2, "need the source");
 }
 
+TEST_F(CliBadInput, gravityThatIsNone)
+{
+  const std::string pair = "source.pcd target.pcd ";
+  for (const char* given : {"--gravity 0,0,1",
+                            "--gravity-source 0,0,1",
+                            "--gravity-target 0,0,1",
+                            "--max-tilt 3"})
+    expectError(pair + given,
+                2,
+                std::string(given).substr(0, std::string(given).find(' ')) +
+                    ": says nothing without --upright");
+  for (const char* direction :
+       {"0,0", "0,0,1,0", "0,0,0", "up", "1,2,", "0;0;1", "nan,0,1", "0,inf,1", ""})
+    for (const char* option : {"--gravity", "--gravity-source", "--gravity-target"})
+      expectError(pair + "--upright " + option + " '" + direction + "'",
+                  2,
+                  std::string(option) + ": expected a direction, X,Y,Z, found '");
+  for (const char* tilt : {"0", "-1", "31", "nan"})
+    expectError(pair + "--upright --max-tilt " + tilt, 2, "--max-tilt = ");
+}
+
 TEST_F(CliBadInput, outputsThatWouldDoHarm)
 {
   const std::string before = read("source.pcd");

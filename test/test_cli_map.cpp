@@ -79,6 +79,7 @@ TEST_F(CliMap, jsonHasItsKeys)
   EXPECT_EQ(json.at("placed"), 4);
   EXPECT_EQ(json.at("resolution"), 0.1);
   EXPECT_EQ(json.at("min_confidence"), MultiviewOptions().min_confidence);
+  EXPECT_EQ(json.at("motion"), "rigid");
   EXPECT_EQ(json.at("pairs"), 6);
   EXPECT_EQ(json.at("left_out").size(), 0u);
   EXPECT_EQ(json.at("groups"), nlohmann::json({{0, 1, 2, 3}}));

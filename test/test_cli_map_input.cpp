@@ -176,6 +176,10 @@ TEST_F(CliMapInput, refusesOptions)
   expectFailure("scans --min-confidence 1", 2, "--min-confidence: must lie between");
   expectFailure("scans --min-confidence nan", 2, "--min-confidence: must lie between");
   expectFailure("scans --bin-fields 2", 2, "--bin-fields");
+  expectFailure(
+      "scans --gravity 0,0,1", 2, "--gravity: says nothing without --upright");
+  expectFailure("scans --upright --gravity 0,0", 2, "--gravity: expected a direction");
+  expectFailure("scans --upright --max-tilt 31", 2, "--max-tilt = 31 is out of range");
   expectFailure("scans --format xml --poses p", 2, "--format");
   expectFailure("scans --shard 3/2 --pairs p", 2, "--shard: expected i/n");
   expectFailure("scans --shard 1/2", 2, "need an output, or --pairs");

@@ -155,6 +155,7 @@ TEST_F(CliMapRuns, refuseWhatOthersMade)
                 3,
                 "pairs.csv: was made with other settings: leaf was 0.1, is 0.2");
   expectFailure(run + "--no-viewpoint", 3, "viewpoints was true, is false");
+  expectFailure(run + "--upright", 3, "was made with other settings: upright");
   fs::rename(path("scans/scan_3.pcd"), path("scan_3.pcd"));
   expectFailure(run + "--add", 3, "scan_3.pcd is not among the scans now");
   io::writeCloud(path("scans/scan_3.pcd"), madeScan(7).cloud);

@@ -520,6 +520,9 @@ TEST(Confidence, GrowsWithWhatSpeaksForAPose)
   better = evidence;
   better.stiffness = 0.002;
   EXPECT_LT(confidenceOf(better), p);
+  better = evidence;
+  better.tilted = 5;
+  EXPECT_LT(confidenceOf(better), 0.1 * p) << "gravity is wrong";
   EXPECT_GT(p, 0);
   EXPECT_LT(p, 1);
 }

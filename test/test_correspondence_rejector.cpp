@@ -155,6 +155,19 @@ TEST_F(CorrespondenceRejectorTest, TakesItsLengthsFromWhatIsSet)
   EXPECT_FLOAT_EQ(rejector.getParameters().inlier_distance, 0.07f);
 }
 
+TEST_F(CorrespondenceRejectorTest, KnowsWhichWayIsUp)
+{
+  const Eigen::Vector3d up(0, 0, 1);
+  rejector.setMotion(MotionModel::Upright);
+  rejector.setGravity(made::roomPose().linear().transpose() * up, up);
+  rejector.setMaxTilt(1);
+  EXPECT_EQ(rejector.getParameters().max_tilt, 1);
+  pcl::Correspondences remaining;
+  rejector.getRemainingCorrespondences(*correspondences, remaining);
+  EXPECT_GE(remaining.size(), size / 3u);
+  EXPECT_TRUE(rejector.getResult().converged);
+}
+
 TEST_F(CorrespondenceRejectorTest, SavesInliersOnlyWhereAsked)
 {
   pcl::Correspondences remaining;

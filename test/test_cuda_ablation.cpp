@@ -227,10 +227,9 @@ TEST(CudaAblation, TakesTheMemoryOfMatrices)
 TEST(CudaAblation, ThisProjectTakesATwentiethOfTheDenseMemory)
 {
   Problem problem;
-  Preparation preparation;
   made::Recipe recipe;
   recipe.size = 7000;
-  prepare(made::make(recipe).view(), recipe.size, preparation, problem);
+  prepare(made::make(recipe).view(), Parameters(), problem);
   const auto bytesOf = [&](const AblationRow& row) {
     cuda_emulation::reset();
     AblationStages stages(row);

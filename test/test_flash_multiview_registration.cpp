@@ -240,6 +240,10 @@ TEST_F(FlashMultiviewRegistrationTest, SettingsReachTheRegistration)
   for (const MapEdge& edge : registration.getResult().edges)
     EXPECT_EQ(edge.agreement.contradicted, 0)
         << "no viewpoint, nothing seen to be empty";
+  registration.setMotion(MotionModel::Upright);
+  registration.setMaxTilt(0);
+  expectFailure("max_tilt");
+  registration.setMaxTilt(3);
   registration.setMinConfidence(1.5);
   expectFailure("min_confidence");
 }

@@ -254,6 +254,59 @@ TEST_F(FlashRegistrationTest, ExplicitParametersWinOverTheResolution)
   EXPECT_FLOAT_EQ(registration.getParameters().length_tolerance, 0.048f);
 }
 
+TEST_F(FlashRegistrationTest, KnowsWhichWayIsUp)
+{
+  const Eigen::Vector3d up(0, 0, 2);
+  const Eigen::Vector3d up_in_source = room().T_target_source.linear().transpose() * up;
+  registration.setMotion(MotionModel::Upright);
+  registration.setMaxTilt(2);
+  registration.setGravity(up_in_source, up);
+  registration.align(output);
+  expectFound();
+  EXPECT_EQ(registration.getResult().evidence.tilted, 0);
+
+  const Eigen::Vector3d off =
+      Eigen::AngleAxisd(20 * M_PI / 180, Eigen::Vector3d(1, 2, 0).normalized()) * up;
+  registration.setGravity(up_in_source, off);
+  registration.align(output);
+  EXPECT_FALSE(registration.hasConverged());
+  EXPECT_GT(registration.getResult().evidence.tilted, 1);
+
+  registration.setMotion(MotionModel::Rigid);
+  registration.align(output);
+  expectFound();
+
+  registration.setMotion(MotionModel::Upright);
+  registration.setGravity(Eigen::Vector3d::Zero(), up);
+  alignSilently();
+  expectNotFound("source_gravity");
+  registration.setGravity(up_in_source, up);
+  registration.setMaxTilt(0);
+  alignSilently();
+  expectNotFound("max_tilt");
+}
+
+TEST_F(FlashRegistrationTest, WhatIsSaidOfTheMotionWinsOverTheParameters)
+{
+  Parameters parameters;
+  parameters.motion = MotionModel::Upright;
+  parameters.max_tilt = 7;
+  parameters.source_gravity = {0, 1, 0};
+  registration.setParameters(parameters);
+  EXPECT_EQ(registration.getParameters().motion, MotionModel::Upright);
+  EXPECT_EQ(registration.getParameters().max_tilt, 7);
+  EXPECT_EQ(registration.getParameters().source_gravity[1], 1);
+  registration.setMaxTilt(5);
+  registration.setGravity({1, 0, 0}, {0, 1, 0});
+  EXPECT_EQ(registration.getParameters().max_tilt, 5);
+  EXPECT_EQ(registration.getParameters().source_gravity[0], 1);
+  EXPECT_EQ(registration.getParameters().target_gravity[1], 1);
+  registration.setMotion(MotionModel::Rigid);
+  EXPECT_EQ(registration.getParameters().motion, MotionModel::Rigid);
+  registration.setParameters(std::nullopt);
+  EXPECT_EQ(registration.getParameters().max_tilt, 5);
+}
+
 TEST_F(FlashRegistrationTest, MeasuresWhatItDoes)
 {
   registration.align(output);

@@ -76,6 +76,21 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"cliques_per_pivot", [](Parameters& p) { p.cliques_per_pivot = 17; }},
         BadField{"row_capacity", [](Parameters& p) { p.row_capacity = 0; }},
         BadField{"pool_capacity", [](Parameters& p) { p.pool_capacity = 129; }},
+        BadField{"motion",
+                 [](Parameters& p) { p.motion = static_cast<MotionModel>(2); }},
+        BadField{"max_tilt", [](Parameters& p) { p.max_tilt = 0; }},
+        BadField{"max_tilt", [](Parameters& p) { p.max_tilt = 30.5f; }},
+        BadField{"max_tilt", [](Parameters& p) { p.max_tilt = NAN_F; }},
+        BadField{"source_gravity",
+                 [](Parameters& p) {
+                   p.source_gravity = {0, 0, 0};
+                 }},
+        BadField{"source_gravity", [](Parameters& p) { p.source_gravity[1] = INF_F; }},
+        BadField{"target_gravity",
+                 [](Parameters& p) {
+                   p.target_gravity = {0, 0, 0};
+                 }},
+        BadField{"target_gravity", [](Parameters& p) { p.target_gravity[2] = NAN_F; }},
         BadField{"refinement_iterations",
                  [](Parameters& p) { p.refinement_iterations = -1; }},
         BadField{"max_hypotheses", [](Parameters& p) { p.max_hypotheses = 0; }},

@@ -28,19 +28,22 @@ protected:
     result_ = estimator.estimate(problem_.correspondences.view(), problem_.parameters);
 
     // The centred coordinates are the library's; everything after them is not.
-    Preparation preparation;
     Problem packed;
-    prepare(problem_.correspondences.view(), 100000, preparation, packed);
+    prepare(problem_.correspondences.view(), problem_.parameters, packed);
     for (std::size_t i = 0; i < packed.size; ++i) {
       source_.insert(source_.end(), {packed.sx[i], packed.sy[i], packed.sz[i]});
       target_.insert(target_.end(), {packed.tx[i], packed.ty[i], packed.tz[i]});
     }
+    rise_.assign(packed.rise.begin(),
+                 packed.rise.begin() + (packed.upright.required ? packed.size : 0));
   }
 
   made::NamedProblem problem_;
   Trace trace_;
   Result result_;
   std::vector<float> source_, target_;
+  /** \brief Of upright motions alone. */
+  std::vector<float> rise_;
 };
 
 TEST_P(StagesAgainstReference, AreEqual)
@@ -51,8 +54,10 @@ TEST_P(StagesAgainstReference, AreEqual)
     EXPECT_EQ(result_.status, Status::TooFewCorrespondences);
     return;
   }
-  const auto graph = reference::firstOrderGraph(
+  auto graph = reference::firstOrderGraph(
       source_, target_, p.length_tolerance, p.min_length_sum);
+  if (p.motion == MotionModel::Upright)
+    reference::keepHeights(source_, rise_, p.length_tolerance, p.max_tilt, graph);
   ASSERT_EQ(trace_.size, graph.n);
   for (std::size_t i = 0; i < graph.n; ++i)
     for (std::size_t j = 0; j < graph.n; ++j)

@@ -143,6 +143,8 @@ addPipeline(CLI::App& app, Options& options, Words& words)
                  "none): don't take the space between it and the points for empty"))
       ->check(CLI::IsMember({"source", "target", "both", "true"}).description(""))
       ->group(group);
+  program::addMotion(app, group, words.motion);
+  program::addGravityOfEach(app, group, words.motion);
   app.add_option("--backend", words.backend, wrapped("auto, cpu or cuda"))
       ->capture_default_str()
       ->check(CLI::IsMember(keysOf(kBackends)).description(""))

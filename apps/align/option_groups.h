@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../program/motion_options.h"
 #include "options.h"
 
 #include <CLI/CLI.hpp>
@@ -20,6 +21,7 @@ struct Words {
   std::string score = "inliers";
   std::string backend = "auto";
   std::string no_viewpoint;
+  program::MotionWords motion;
 };
 
 /** \brief The values that --second-order, --score and --backend take. */

@@ -12,7 +12,6 @@
 
 #include <pcl_flashreg/estimator.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -59,6 +58,7 @@ takeWords(const Words& words, Options& options)
   options.parameters.second_order = kSecondOrders.at(words.second_order);
   options.parameters.score_metric = kScores.at(words.score);
   options.backend = kBackends.at(words.backend);
+  program::takeMotion(words.motion, options.parameters);
   const std::string& unknown = words.no_viewpoint;
   options.source_viewpoint_known = unknown.empty() || unknown == "target";
   options.target_viewpoint_known = unknown.empty() || unknown == "source";
@@ -74,18 +74,6 @@ takeWords(const Words& words, Options& options)
     options.correspondences = {words.correspondences};
   else
     options.correspondences = splitPair(words.correspondences, "--correspondences");
-}
-
-/** \brief The core names its parameters as in "min_inliers = 1 is ..."; so do we, but
- * as the option that sets them. */
-std::string
-asOption(std::string message)
-{
-  const auto name_end =
-      message.begin() +
-      static_cast<std::ptrdiff_t>(std::min(message.find(' '), message.size()));
-  std::replace(message.begin(), name_end, '_', '-');
-  return "--" + message;
 }
 
 /** \brief "--no-viewpoint source" as one word: an option whose value may be left out would
@@ -127,7 +115,7 @@ check(const Options& options)
     options.pairOptions().parametersFor(options.leaf.value_or(0)).validate();
   }
   catch (const std::invalid_argument& error) {
-    throw UsageError(asOption(error.what()));
+    throw UsageError(program::asOption(error.what()));
   }
   if (options.view)
     requireDisplay();

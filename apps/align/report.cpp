@@ -105,6 +105,8 @@ formatWant(const Evidence& evidence)
   constexpr double MIRRORED = 1.2, SOFT = 0.004, LOOSE = 0.2, RIVALS = 1, NARROW = 1;
   if (evidence.mirrored > MIRRORED)
     return "a mirror image explains the correspondences better: is an axis flipped?";
+  if (evidence.tilted > RIVALS)
+    return "a pose that gravity forbids explains more: is its direction right?";
   if (evidence.has_clouds) {
     if (evidence.stiffness < SOFT || evidence.hold < LOOSE)
       return "the clouds match as well where it is moved off";
@@ -149,6 +151,9 @@ formatReport(const Options& options, const Outcome& outcome)
   if (outcome.pair.resolution != 0)
     text += "resolution  " + detail::toText(outcome.pair.resolution) +
             (options.leaf ? "\n" : " (estimated; --leaf sets another)\n");
+  if (options.parameters.motion == MotionModel::Upright)
+    text += "motion      upright, up to " +
+            detail::toText(options.parameters.max_tilt) + " degrees off\n";
   return text + formatTimes(outcome);
 }
 

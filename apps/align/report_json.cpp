@@ -2,6 +2,7 @@
 // Copyright (c) the pcl_flashreg authors
 
 #include "../program/json.h"
+#include "../program/motion_options.h"
 #include "report.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -55,7 +56,8 @@ evidenceOf(const Evidence& evidence)
                {"thickness", evidence.thickness},
                {"breadth", evidence.breadth},
                {"log_chance", evidence.log_chance},
-               {"mirrored", evidence.mirrored}};
+               {"mirrored", evidence.mirrored},
+               {"tilted", evidence.tilted}};
   if (evidence.has_clouds) {
     json["viewpoints"] = evidence.has_viewpoints;
     json["one_viewpoint"] = evidence.one_viewpoint;
@@ -120,11 +122,18 @@ leftOut(const LeftOutPoints& points)
 Json
 parametersOf(const Parameters& parameters)
 {
-  return {{"length_tolerance", parameters.length_tolerance},
-          {"min_length_sum", parameters.min_length_sum},
-          {"inlier_distance", parameters.inlier_distance},
-          {"max_correspondences", parameters.max_correspondences},
-          {"min_confidence", parameters.min_confidence}};
+  Json json = {{"length_tolerance", parameters.length_tolerance},
+               {"min_length_sum", parameters.min_length_sum},
+               {"inlier_distance", parameters.inlier_distance},
+               {"max_correspondences", parameters.max_correspondences},
+               {"min_confidence", parameters.min_confidence},
+               {"motion", program::nameOf(parameters.motion)}};
+  if (parameters.motion == MotionModel::Upright) {
+    json["max_tilt"] = parameters.max_tilt;
+    json["source_gravity"] = parameters.source_gravity;
+    json["target_gravity"] = parameters.target_gravity;
+  }
+  return json;
 }
 
 } // namespace

@@ -26,11 +26,13 @@ fill(AlignedBuffer<float>& values, std::size_t n, std::uint64_t seed)
     value = static_cast<float>(random.uniform(-1.5, 1.5));
 }
 
+/** \tparam TEST of all motions, or of upright ones */
+template <auto TEST>
 void
 edgeTest(benchmark::State& state, const Kernels* kernels)
 {
-  AlignedBuffer<float> x[6], norms[2];
-  for (int k = 0; k < 6; ++k)
+  AlignedBuffer<float> x[7], norms[2];
+  for (int k = 0; k < 7; ++k)
     fill(x[k], 512, k);
   for (int side = 0; side < 2; ++side) {
     norms[side].resize(512);
@@ -40,27 +42,15 @@ edgeTest(benchmark::State& state, const Kernels* kernels)
                        x[3 * side + 2][i] * x[3 * side + 2][i];
   }
   const float tau2 = 0.012f * 0.012f;
-  const cpu::EdgeTestInput input{x[0].data(),
-                                 x[1].data(),
-                                 x[2].data(),
-                                 x[3].data(),
-                                 x[4].data(),
-                                 x[5].data(),
-                                 norms[0].data(),
-                                 norms[1].data(),
-                                 0.012f,
-                                 0.15f,
-                                 true,
-                                 -2 * tau2,
-                                 tau2 * tau2,
-                                 -1e-5f,
-                                 1e-5f,
-                                 0.0115f,
-                                 0.011f};
+  const cpu::EdgeTestInput input{
+      x[0].data(), x[1].data(),     x[2].data(),     x[3].data(), x[4].data(),
+      x[5].data(), norms[0].data(), norms[1].data(), 0.012f,      0.15f,
+      true,        -2 * tau2,       tau2 * tau2,     -1e-5f,      1e-5f,
+      0.0115f,     0.011f,          x[6].data(),     0.0027f,     1e-7f};
   std::uint64_t sure[64], possible[64];
   std::size_t column = 0;
   for (auto _ : state) {
-    kernels->edgeTest(input, 0, column, sure, possible);
+    (kernels->*TEST)(input, 0, column, sure, possible);
     benchmark::DoNotOptimize(sure);
     benchmark::ClobberMemory();
     column = (column + 64) % 512;
@@ -221,7 +211,8 @@ main(int argc, char** argv)
   std::size_t count = 0;
   const cpu::Kernels* const* kernels = cpu::availableKernels(count);
   const std::pair<const char*, void (*)(benchmark::State&, const cpu::Kernels*)>
-      loops[] = {{"edgeTest", edgeTest},
+      loops[] = {{"edgeTest", edgeTest<&Kernels::edgeTest>},
+                 {"uprightEdgeTest", edgeTest<&Kernels::uprightEdgeTest>},
                  {"transpose", transpose},
                  {"commonNeighbours", commonNeighbours},
                  {"residualTest", residualTest},

@@ -98,6 +98,7 @@ private:
     run_.times.relations = run_.result.timings.relations;
     run_.times.placing = run_.result.timings.grouping + run_.result.timings.refinement;
     run_.min_confidence = options_.min_confidence;
+    run_.motion = options_.motion.motion;
     run_.known_pairs = pairs.knownBefore();
   }
 

@@ -39,6 +39,7 @@ struct MapRun {
   /** \brief Whether the clouds say so, and not the user. */
   bool resolution_estimated = false;
   double min_confidence = 0;
+  MotionModel motion = MotionModel::Rigid;
   /** \brief Pairs of scans that were tried, and those of them that an earlier run had. */
   std::size_t pairs = 0, known_pairs = 0;
   MultiviewResult result;

@@ -7,6 +7,7 @@
 #include "../io/raw_bin.h"
 #include "../program/command_line.h"
 #include "../program/help_text.h"
+#include "../program/motion_options.h"
 #include "map_picture.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -52,6 +53,7 @@ struct Words {
   std::string format;
   std::string shard;
   bool no_viewpoint = false;
+  program::MotionWords motion;
 };
 
 void
@@ -163,6 +165,7 @@ addMethod(CLI::App& app, Options& options, Words& words)
                  "origin, where a file states none): don't take the space between "
                  "it and the points for empty"))
       ->group(group);
+  program::addMotion(app, group, words.motion);
   app.add_option("--threads", options.threads, wrapped("CPU threads; 0 for all"))
       ->capture_default_str()
       ->group(group);
@@ -292,6 +295,7 @@ Options::multiview() const
   MultiviewOptions result;
   result.min_confidence = min_confidence;
   result.sequence = sequence;
+  result.pair.parameters = motion;
   return result;
 }
 
@@ -312,6 +316,7 @@ parseOptions(int argc, char** argv)
   takePaths(words, options);
   options.typed = typedOptions(app);
   options.viewpoint_known = !words.no_viewpoint;
+  program::takeMotion(words.motion, options.motion);
   if (!words.shard.empty())
     options.shard = batch::parseShard(words.shard);
   if (!words.format.empty())

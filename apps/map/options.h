@@ -50,6 +50,8 @@ struct Options {
   std::optional<double> leaf;
   double min_confidence = MultiviewOptions().min_confidence;
   bool sequence = false;
+  /** \brief Which motions a scan's pose may be; nothing else of it is used. */
+  Parameters motion;
   unsigned threads = 0;
   /** \brief Where scans are kept that don't fit into memory. */
   std::string scan_folder;

@@ -114,6 +114,9 @@ pairsConfig(const Options& options, const ScanSet& scans)
   config["viewpoints"] = options.viewpoint_known;
   if (options.bin_fields != 0)
     config["bin_fields"] = options.bin_fields;
+  if (options.motion.motion == MotionModel::Upright)
+    config["upright"] = {{"gravity", options.motion.source_gravity},
+                         {"max_tilt", options.motion.max_tilt}};
   config["front_end"] = batch::frontEndFingerprint();
   config["scans"] = Config::array();
   for (std::size_t i = 0; i < scans.files.size(); ++i)

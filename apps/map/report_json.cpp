@@ -2,6 +2,7 @@
 // Copyright (c) the pcl_flashreg authors
 
 #include "../program/json.h"
+#include "../program/motion_options.h"
 #include "report.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -86,6 +87,7 @@ formatJson(const MapRun& run, WithTimes times)
   json["placed"] = run.result.placed();
   json["resolution"] = run.resolution;
   json["min_confidence"] = run.min_confidence;
+  json["motion"] = program::nameOf(run.motion);
   json["pairs"] = run.pairs;
   json["scans"] = Json::array();
   for (std::size_t i = 0; i < run.scans.size(); ++i)

@@ -3,9 +3,12 @@
 
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 namespace pcl_flashreg::program {
 
@@ -15,7 +18,19 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/** \brief How every program ends where it can't do what it was asked for. */
+/** \brief The core names its parameters as in "min_inliers = 1 is ..."; so do programs, but
+ * as the option that sets them. */
+inline std::string
+asOption(std::string message)
+{
+  const auto name_end =
+      message.begin() +
+      static_cast<std::ptrdiff_t>(std::min(message.find(' '), message.size()));
+  std::replace(message.begin(), name_end, '_', '-');
+  return "--" + message;
+}
+
+/** rief How every program ends where it can't do what it was asked for. */
 enum ExitStatus { USAGE = 2, FAILURE = 3 };
 
 /** \brief What a program's main() does: an error is one line on standard error.

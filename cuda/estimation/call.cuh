@@ -8,6 +8,7 @@
 #include "math/edge_filter.h"
 #include "math/residual.h"
 #include "math/pose.h"
+#include "math/upright.h"
 #include "estimation/problem.h"
 
 #include <pcl_flashreg/parameters.h>
@@ -92,6 +93,8 @@ struct alignas(16) SlotPose {
 struct Call {
   // The problem: coordinates padded with NaN to `padded`, a multiple of ROW_BITS.
   const float *sx, *sy, *sz, *tx, *ty, *tz;
+  /** \brief Of upright motions alone, see Problem::rise. */
+  const float* rise;
   unsigned size, padded;
   /** \brief 32-bit words a row of the bit matrix. */
   unsigned words;
@@ -104,6 +107,8 @@ struct Call {
   SecondOrder second_order;
   ScoreMetric metric;
   EdgeFilter filter;
+  Upright upright;
+  float height_margin;
 
   // What the host expects of stage 2; see planHolds().
   bool exact;

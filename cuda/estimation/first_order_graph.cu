@@ -33,31 +33,47 @@ withNorm(float x, float y, float z)
   return make_float4(x, y, z, fmaf(x, x, fmaf(y, y, z * z)));
 }
 
-__device__ inline bool
-isEdge(const Call& call,
-       const float4& s,
-       const float4& t,
-       const float4& p,
-       const float4& q)
+/** \brief A correspondence; its rise is that of upright motions alone. */
+struct Corner {
+  float4 source, target;
+  float rise;
+};
+
+template <bool UPRIGHT>
+__device__ inline Corner
+cornerOf(const Call& call, unsigned i)
 {
-  return compatible({s.x, s.y, s.z, t.x, t.y, t.z},
-                    {p.x, p.y, p.z, q.x, q.y, q.z},
-                    call.length_tolerance,
-                    call.min_length_sum);
+  return {withNorm(call.sx[i], call.sy[i], call.sz[i]),
+          withNorm(call.tx[i], call.ty[i], call.tz[i]),
+          UPRIGHT ? call.rise[i] : 0.0f};
 }
 
-/** \brief The edge test of correspondences (s, t) and (p, q). The filter's products and
- * sums are contracted on purpose: it only decides what is certain. */
-template <bool FILTER>
+template <bool UPRIGHT>
 __device__ inline bool
-testPair(const Call& call,
-         const float4& s,
-         const float4& t,
-         const float4& p,
-         const float4& q)
+isEdge(const Call& call, const Corner& a, const Corner& b)
+{
+  const float4 &s = a.source, &t = a.target, &p = b.source, &q = b.target;
+  const PointPair mine{s.x, s.y, s.z, t.x, t.y, t.z};
+  const PointPair other{p.x, p.y, p.z, q.x, q.y, q.z};
+  return compatible(mine, other, call.length_tolerance, call.min_length_sum) &&
+         (!UPRIGHT || keepsHeight(mine,
+                                  other,
+                                  a.rise,
+                                  b.rise,
+                                  call.length_tolerance,
+                                  call.upright.squared_slope));
+}
+
+/** \brief The edge test. The filter's products and sums are contracted on purpose: it only
+ * decides what is certain. */
+template <bool FILTER, bool UPRIGHT>
+__device__ inline bool
+testPair(const Call& call, const Corner& first, const Corner& second)
 {
   if (!FILTER)
-    return isEdge(call, s, t, p, q);
+    return isEdge<UPRIGHT>(call, first, second);
+  const float4 &s = first.source, &t = first.target;
+  const float4 &p = second.source, &q = second.target;
   const EdgeFilter& f = call.filter;
   const float source_product = fmaf(s.x, p.x, fmaf(s.y, p.y, s.z * p.z));
   const float target_product = fmaf(t.x, q.x, fmaf(t.y, q.y, t.z * q.z));
@@ -69,17 +85,24 @@ testPair(const Call& call,
       fmaf(difference, difference, fmaf(f.minus_two_tau2, sum, f.tau4));
   if (!(defect < f.possible_defect && sum > f.possible_sum))
     return false;
-  if (defect < f.sure_defect && sum > f.sure_sum)
-    return true;
-  return isEdge(call, s, t, p, q);
+  bool sure = defect < f.sure_defect && sum > f.sure_sum;
+  if (UPRIGHT) {
+    const float excess = fabsf(first.rise - second.rise) - call.length_tolerance;
+    const float height = fmaf(excess, fabsf(excess), -call.upright.squared_slope * a);
+    if (!(height < call.height_margin))
+      return false;
+    sure = sure && height < -call.height_margin;
+  }
+  return sure || isEdge<UPRIGHT>(call, first, second);
 }
 
 struct Shared {
   float4 source[TILE], target[TILE];
+  float rise[TILE];
   unsigned mirrored[TILE][WARPS];
 };
 
-template <bool FILTER>
+template <bool FILTER, bool UPRIGHT>
 __global__ void
 __launch_bounds__(TILE) fillTile(const Call call)
 {
@@ -88,25 +111,25 @@ __launch_bounds__(TILE) fillTile(const Call call)
     return; // the mirror image of another block's
   Shared& shared = *reinterpret_cast<Shared*>(sharedMemory());
   const unsigned lane = laneIndex(), warp = warpIndex();
-  const unsigned i = row_tile * TILE + threadIdx.x;
-  shared.source[threadIdx.x] = withNorm(call.sx[i], call.sy[i], call.sz[i]);
-  shared.target[threadIdx.x] = withNorm(call.tx[i], call.ty[i], call.tz[i]);
-  float4 source[COLUMNS], target[COLUMNS];
+  const Corner mine = cornerOf<UPRIGHT>(call, row_tile * TILE + threadIdx.x);
+  shared.source[threadIdx.x] = mine.source;
+  shared.target[threadIdx.x] = mine.target;
+  if (UPRIGHT)
+    shared.rise[threadIdx.x] = mine.rise;
+  Corner columns[COLUMNS];
 #pragma unroll
-  for (unsigned c = 0; c < COLUMNS; ++c) {
-    const unsigned j = column_tile * TILE + c * WARP + lane;
-    source[c] = withNorm(call.sx[j], call.sy[j], call.sz[j]);
-    target[c] = withNorm(call.tx[j], call.ty[j], call.tz[j]);
-  }
+  for (unsigned c = 0; c < COLUMNS; ++c)
+    columns[c] = cornerOf<UPRIGHT>(call, column_tile * TILE + c * WARP + lane);
   __syncthreads();
 
   unsigned row_words[COLUMNS] = {}, column_words[COLUMNS] = {};
   for (unsigned r = 0; r < WARP; ++r) {
-    const float4 s = shared.source[warp * WARP + r];
-    const float4 t = shared.target[warp * WARP + r];
+    const unsigned k = warp * WARP + r;
+    const Corner corner{
+        shared.source[k], shared.target[k], UPRIGHT ? shared.rise[k] : 0.0f};
 #pragma unroll
     for (unsigned c = 0; c < COLUMNS; ++c) {
-      const bool edge = testPair<FILTER>(call, s, t, source[c], target[c]);
+      const bool edge = testPair<FILTER, UPRIGHT>(call, corner, columns[c]);
       const unsigned word = __ballot_sync(ALL_LANES, edge);
       if (lane == r)
         row_words[c] = word;
@@ -136,14 +159,23 @@ firstOrderGraph(const Call& call, cudaStream_t stream)
 {
   const unsigned tiles = call.padded / TILE;
   const Shape shape{dim3(tiles, tiles), dim3(TILE), sizeof(Shared)};
-  launch(call.filter.use ? &fillTile<true> : &fillTile<false>, shape, stream, call);
+  if (call.upright.required)
+    launch(call.filter.use ? &fillTile<true, true> : &fillTile<false, true>,
+           shape,
+           stream,
+           call);
+  else
+    launch(call.filter.use ? &fillTile<true, false> : &fillTile<false, false>,
+           shape,
+           stream,
+           call);
 }
 
 void
 requireKernelImage()
 {
   cudaFuncAttributes attributes;
-  PCL_FLASHREG_CUDA(cudaFuncGetAttributes(&attributes, &fillTile<true>));
+  PCL_FLASHREG_CUDA(cudaFuncGetAttributes(&attributes, &fillTile<true, false>));
 }
 
 } // namespace cuda

@@ -47,7 +47,7 @@ poseOf(const Call& call, unsigned slot, Pose& pose)
   const Clique c = call.cliques[slot];
   const Vec3 s[3] = {source(call, c.u), source(call, c.v), source(call, c.w)};
   const Vec3 t[3] = {target(call, c.u), target(call, c.v), target(call, c.w)};
-  return alignTriplet(s, t, pose);
+  return alignTriplet(s, t, call.upright, pose);
 }
 
 __global__ void

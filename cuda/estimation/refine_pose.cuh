@@ -145,7 +145,7 @@ sumInliers(const Call& call, const unsigned* list, unsigned count, RefineShared&
 
 /** \brief Aligns by the sums; the first thread. */
 __device__ inline bool
-align(const double sums[ALIGNMENT_SUMS], Pose& pose)
+align(const double sums[ALIGNMENT_SUMS], const Upright& upright, Pose& pose)
 {
   AlignmentSums all;
   all.weight = sums[0];
@@ -154,7 +154,7 @@ align(const double sums[ALIGNMENT_SUMS], Pose& pose)
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
       all.products[3 * a + b] = sums[4 * (a + 1) + b + 1];
-  return alignWeighted(all, pose);
+  return alignWeighted(all, upright, pose);
 }
 
 /** \brief Score of the pose at hand by its listed inliers. */
@@ -206,7 +206,7 @@ refinePose(const Call& call,
     sumInliers(call, list, count, shared);
     if (threadIdx.x == 0) {
       Pose next;
-      shared.aligned = align(shared.sums, next);
+      shared.aligned = align(shared.sums, call.upright, next);
       if (shared.aligned)
         shared.pose = next;
     }

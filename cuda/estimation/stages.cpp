@@ -93,24 +93,32 @@ Stages::describe(const Problem& problem, const Parameters& p)
   c.second_order = p.second_order;
   c.metric = p.score_metric;
   c.filter = edgeFilter(problem.radius, p.length_tolerance, p.min_length_sum);
+  c.upright = problem.upright;
+  c.height_margin = heightMargin(problem.radius, problem.upright.squared_slope);
 }
 
 void
 Stages::upload(const Problem& problem)
 {
   const std::size_t n = call_.padded;
-  staging_.reserve(6 * n);
-  points_.reserve(6 * n);
-  const AlignedBuffer<float>* coordinates[] = {
-      &problem.sx, &problem.sy, &problem.sz, &problem.tx, &problem.ty, &problem.tz};
-  for (std::size_t k = 0; k < 6; ++k) {
+  const AlignedBuffer<float>* columns[] = {&problem.sx,
+                                           &problem.sy,
+                                           &problem.sz,
+                                           &problem.tx,
+                                           &problem.ty,
+                                           &problem.tz,
+                                           &problem.rise};
+  const std::size_t count = problem.upright.required ? 7 : 6;
+  staging_.reserve(count * n);
+  points_.reserve(count * n);
+  for (std::size_t k = 0; k < count; ++k) {
     float* to = staging_.data() + k * n;
-    std::copy_n(coordinates[k]->data(), problem.size, to);
+    std::copy_n(columns[k]->data(), problem.size, to);
     std::fill(to + problem.size, to + n, std::numeric_limits<float>::quiet_NaN());
   }
   PCL_FLASHREG_CUDA(cudaMemcpyAsync(points_.data(),
                                     staging_.data(),
-                                    6 * n * sizeof(float),
+                                    count * n * sizeof(float),
                                     cudaMemcpyHostToDevice,
                                     stream_.get()));
   const float* points = points_.data();
@@ -120,6 +128,7 @@ Stages::upload(const Problem& problem)
   call_.tx = points + 3 * n;
   call_.ty = points + 4 * n;
   call_.tz = points + 5 * n;
+  call_.rise = points + 6 * n;
   uploaded_ = true;
 }
 

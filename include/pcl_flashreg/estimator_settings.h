@@ -5,7 +5,10 @@
 
 #include <pcl_flashreg/impl/lazy_registration.hpp>
 
+#include <Eigen/Core>
+
 #include <optional>
+#include <utility>
 
 namespace pcl_flashreg {
 
@@ -29,6 +32,33 @@ public:
     parameters_ = parameters;
   }
 
+  /** \brief Which motions a pose may be, whatever setParameters() says of it:
+   * MotionModel::Rigid by default, or MotionModel::Upright where it is known which way is
+   * up. */
+  void
+  setMotion(MotionModel motion)
+  {
+    motion_ = motion;
+  }
+
+  /** \brief Upright motion: the directions of gravity in the frames of source and target, or
+   * the opposite ones of both, of any length > 0; (0, 0, 1) by default. Holds whatever
+   * setParameters() says of it. One that can't be is reported by the computation. Of many
+   * clouds each is a source or a target: both are the same for these. */
+  void
+  setGravity(const Eigen::Vector3d& source, const Eigen::Vector3d& target)
+  {
+    gravity_ = {source.cast<float>(), target.cast<float>()};
+  }
+
+  /** \brief Upright motion: how many degrees gravity may be off under the pose, > 0 and
+   * <= 30; 3 by default. Holds whatever setParameters() says of it. */
+  void
+  setMaxTilt(double degrees)
+  {
+    max_tilt_ = static_cast<float>(degrees);
+  }
+
   /** \brief CPU threads of every part; 0 (the default) for all. */
   void
   setNumberOfThreads(unsigned num_threads)
@@ -44,6 +74,19 @@ public:
   }
 
 protected:
+  /** \brief What was said of the motion takes the place of what the parameters say. */
+  void
+  applyMotion(Parameters& parameters) const
+  {
+    parameters.motion = motion_.value_or(parameters.motion);
+    parameters.max_tilt = max_tilt_.value_or(parameters.max_tilt);
+    if (!gravity_)
+      return;
+    const auto& [source, target] = *gravity_;
+    parameters.source_gravity = {source.x(), source.y(), source.z()};
+    parameters.target_gravity = {target.x(), target.y(), target.z()};
+  }
+
   /** \brief With these parameters, whatever the resolution. */
   static PairOptions
   optionsWith(const Parameters& parameters)
@@ -64,6 +107,9 @@ protected:
 
   double resolution_ = 0;
   std::optional<Parameters> parameters_;
+  std::optional<MotionModel> motion_;
+  std::optional<float> max_tilt_;
+  std::optional<std::pair<Eigen::Vector3f, Eigen::Vector3f>> gravity_;
   detail::LazyRegistration registration_;
 };
 

@@ -5,6 +5,8 @@
 
 #include <pcl_flashreg/export.h>
 
+#include <array>
+
 namespace pcl_flashreg {
 
 /** \brief How the scores of the second-order graph are computed (stage 2). */
@@ -29,6 +31,16 @@ enum class ScoreMetric {
   Mae,
   /** \brief Sum over the inliers of (1 - d / inlier_distance)^2. */
   Mse
+};
+
+/** \brief Which motions a pose may be. */
+enum class MotionModel {
+  /** \brief All rigid ones: three turns, three shifts. */
+  Rigid,
+  /** \brief Those that take the direction of gravity in the source to that in the target, up
+   * to Parameters::max_tilt: a heading and three shifts. For whoever knows which way is up,
+   * as robots and tripods do. */
+  Upright
 };
 
 /** \brief Where the stages run. */
@@ -87,6 +99,17 @@ struct PCL_FLASHREG_EXPORT Parameters {
   /** \brief How many distinct hypotheses Result lists at most, the best one included.
    * >= 1, <= 64. */
   int max_hypotheses = 5;
+
+  MotionModel motion = MotionModel::Rigid;
+
+  /** \brief Upright motion: the angle, in degrees, between the direction of gravity in the
+   * target and that of the source under the pose is at most this. It has to cover what
+   * source_gravity and target_gravity may be wrong by together. > 0, <= 30. */
+  float max_tilt = 3;
+
+  /** \brief Upright motion: the directions of gravity, or else the opposite ones of both, in
+   * the frame of each cloud. Finite, of any length > 0. */
+  std::array<float, 3> source_gravity{0, 0, 1}, target_gravity{0, 0, 1};
 
   /** \brief The verdict: a pose is trusted if Result::confidence is at least this.
    * [0, 1]. What precision and recall that gives: docs/method.md. */

@@ -94,6 +94,10 @@ struct Evidence {
   /** \brief By how many standard deviations a reflection of the source explains the
    * correspondences better than a motion: clearly above 0 if one of the clouds is mirrored. */
   double mirrored = 0;
+  /** \brief Of upright motions, how much of a rival a pose is that gravity forbids: 1 if it
+   * explains as much, and more if it explains more, as where the direction of gravity is
+   * wrong. 0 where there is none, and of rigid motions. */
+  double tilted = 0;
 
   /** \brief Whether the clouds were asked: the rest is 0 where not. */
   bool has_clouds = false;
@@ -201,7 +205,7 @@ struct Result {
    * (rotation, translation), of a small motion applied on the left, about the target
    * frame's origin: T <- exp(xi) T. Independent errors are assumed, so it is
    * over-confident where neighbouring inliers err together. Nothing is known along free
-   * motions. Zero unless status is Ok. */
+   * motions, and gravity adds nothing. Zero unless status is Ok. */
   InformationMatrix information = InformationMatrix::Zero();
 
   /** \brief Motions that the clouds leave free, the freest first: a corridor lets the pose

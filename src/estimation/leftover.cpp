@@ -24,6 +24,7 @@ takeLeftover(const Problem& problem,
     if (!(squaredResidual(single, problem.pair(i)) < limit * limit))
       rows.push_back(i);
   const std::size_t count = std::min(most, rows.size());
+  leftover.upright = problem.upright;
   leftover.resize(count);
   leftover.radius = problem.radius;
   const auto copy = [&](const AlignedBuffer<float>& from, AlignedBuffer<float>& to) {
@@ -37,6 +38,8 @@ takeLeftover(const Problem& problem,
   copy(problem.tx, leftover.tx);
   copy(problem.ty, leftover.ty);
   copy(problem.tz, leftover.tz);
+  if (problem.upright.required)
+    copy(problem.rise, leftover.rise);
 }
 
 } // namespace pcl_flashreg

@@ -5,6 +5,7 @@
 
 #include "support/require.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_flashreg {
@@ -25,6 +26,17 @@ checkRange(const char* name, int value, int least, int most)
           value,
           "it must lie in [" + std::to_string(least) + ", " + std::to_string(most) +
               "]");
+}
+
+void
+checkDirection(const char* name, const std::array<float, 3>& direction)
+{
+  double longest = 0;
+  for (const float component : direction) {
+    require(std::isfinite(component), name, component, "it must be finite");
+    longest = std::max(longest, std::abs(static_cast<double>(component)));
+  }
+  require(longest > 0, name, longest, "one of its components must not be 0");
 }
 
 } // namespace
@@ -59,6 +71,13 @@ Parameters::validate() const
   checkRange("score_metric", static_cast<int>(score_metric), 0, 2);
   checkRange("refinement_iterations", refinement_iterations, 0, 1000);
   checkRange("max_hypotheses", max_hypotheses, 1, 64);
+  checkRange("motion", static_cast<int>(motion), 0, 1);
+  require(max_tilt > 0 && max_tilt <= 30,
+          "max_tilt",
+          max_tilt,
+          "it must lie in (0, 30] degrees");
+  checkDirection("source_gravity", source_gravity);
+  checkDirection("target_gravity", target_gravity);
   require(min_confidence >= 0 && min_confidence <= 1,
           "min_confidence",
           min_confidence,

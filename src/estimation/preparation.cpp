@@ -4,6 +4,7 @@
 #include "estimation/preparation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -93,7 +94,7 @@ pack(const Scalar* xyz,
 template <typename Scalar>
 void
 chooseRows(const CorrespondenceView<Scalar>& in,
-           std::size_t max_correspondences,
+           const Parameters& parameters,
            Preparation& out)
 {
   out.rows.clear();
@@ -102,16 +103,64 @@ chooseRows(const CorrespondenceView<Scalar>& in,
       out.rows.push_back(static_cast<int>(row));
   out.invalid = in.size - out.rows.size();
   const std::size_t valid = out.rows.size();
-  keepBestRanked(in.ranks, max_correspondences, out.rows);
+  keepBestRanked(
+      in.ranks, static_cast<std::size_t>(parameters.max_correspondences), out.rows);
   out.dropped = valid - out.rows.size();
+}
+
+Vec3
+unit(const std::array<float, 3>& direction)
+{
+  const Vec3 v{direction[0], direction[1], direction[2]};
+  return (1 / std::sqrt(dot(v, v))) * v;
+}
+
+Upright
+uprightOf(const Parameters& parameters)
+{
+  Upright upright;
+  upright.required = parameters.motion == MotionModel::Upright;
+  if (!upright.required)
+    return upright;
+  constexpr double RADIANS = 3.14159265358979323846 / 180;
+  const double tilt = RADIANS * parameters.max_tilt;
+  const double chord = 2 * std::sin(tilt / 2);
+  upright.source_up = unit(parameters.source_gravity);
+  upright.target_up = unit(parameters.target_gravity);
+  upright.cosine = std::cos(tilt);
+  upright.sine = std::sin(tilt);
+  upright.squared_slope = static_cast<float>(chord * chord);
+  return upright;
+}
+
+/** \brief Rounds once what is computed in double precision: heights may be far larger than
+ * their differences. */
+template <typename Scalar>
+void
+packRises(const CorrespondenceView<Scalar>& in,
+          const Preparation& prepared,
+          Problem& problem)
+{
+  const Upright& upright = problem.upright;
+  for (std::size_t i = 0; i < problem.size; ++i) {
+    const Vec3 s = point(in.source_xyz, prepared.rows[i]) - prepared.source_centre;
+    const Vec3 t = point(in.target_xyz, prepared.rows[i]) - prepared.target_centre;
+    problem.rise[i] =
+        static_cast<float>(dot(upright.target_up, t) - dot(upright.source_up, s));
+  }
+  std::fill(problem.rise.begin() + problem.size,
+            problem.rise.end(),
+            std::numeric_limits<float>::quiet_NaN());
 }
 
 template <typename Scalar>
 void
 packBoth(const CorrespondenceView<Scalar>& in,
          const Preparation& prepared,
+         const Parameters& parameters,
          Problem& problem)
 {
+  problem.upright = uprightOf(parameters);
   problem.resize(prepared.rows.size());
   problem.radius = std::max(pack(in.source_xyz,
                                  prepared.rows,
@@ -125,6 +174,8 @@ packBoth(const CorrespondenceView<Scalar>& in,
                                  problem.tx,
                                  problem.ty,
                                  problem.tz));
+  if (problem.upright.required)
+    packRises(in, prepared, problem);
 }
 
 } // namespace
@@ -132,47 +183,47 @@ packBoth(const CorrespondenceView<Scalar>& in,
 template <typename Scalar>
 void
 prepare(const CorrespondenceView<Scalar>& in,
-        std::size_t max_correspondences,
+        const Parameters& parameters,
         const std::optional<Vec3>& target_centre,
         Preparation& out,
         Problem& problem)
 {
-  chooseRows(in, max_correspondences, out);
+  chooseRows(in, parameters, out);
   out.source_centre = centroid(in.source_xyz, out.rows);
   out.target_centre = target_centre.value_or(centroid(in.target_xyz, out.rows));
-  packBoth(in, out, problem);
+  packBoth(in, out, parameters, problem);
 }
 
 template <typename Scalar>
 void
 prepareLike(const Preparation& centred,
             const CorrespondenceView<Scalar>& in,
-            std::size_t max_correspondences,
+            const Parameters& parameters,
             Problem& problem)
 {
   Preparation out;
-  chooseRows(in, max_correspondences, out);
+  chooseRows(in, parameters, out);
   out.source_centre = centred.source_centre;
   out.target_centre = centred.target_centre;
-  packBoth(in, out, problem);
+  packBoth(in, out, parameters, problem);
 }
 
 template void
 prepare(const CorrespondenceView<float>&,
-        std::size_t,
+        const Parameters&,
         const std::optional<Vec3>&,
         Preparation&,
         Problem&);
 template void
 prepare(const CorrespondenceView<double>&,
-        std::size_t,
+        const Parameters&,
         const std::optional<Vec3>&,
         Preparation&,
         Problem&);
 template void
 prepareLike(const Preparation&,
             const CorrespondenceView<double>&,
-            std::size_t,
+            const Parameters&,
             Problem&);
 
 } // namespace pcl_flashreg

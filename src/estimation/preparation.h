@@ -24,13 +24,14 @@ struct Preparation {
 };
 
 /** \brief Leaves out rows that are not finite, keeps the best-ranked max_correspondences,
- * subtracts the centroids in double precision and packs the rest.
+ * subtracts the centroids in double precision and packs the rest, with what the motion model
+ * asks of poses.
  * \param[in] target_centre what is subtracted from the target's side instead, if anything
  */
 template <typename Scalar>
 void
 prepare(const CorrespondenceView<Scalar>& correspondences,
-        std::size_t max_correspondences,
+        const Parameters& parameters,
         const std::optional<Vec3>& target_centre,
         Preparation& preparation,
         Problem& problem);
@@ -41,7 +42,7 @@ template <typename Scalar>
 void
 prepareLike(const Preparation& centred,
             const CorrespondenceView<Scalar>& correspondences,
-            std::size_t max_correspondences,
+            const Parameters& parameters,
             Problem& problem);
 
 /** \brief The same for who does not ask what became of the rows. */
@@ -52,29 +53,25 @@ prepare(const CorrespondenceView<Scalar>& correspondences,
         Problem& problem)
 {
   Preparation preparation;
-  prepare(correspondences,
-          static_cast<std::size_t>(parameters.max_correspondences),
-          std::nullopt,
-          preparation,
-          problem);
+  prepare(correspondences, parameters, std::nullopt, preparation, problem);
 }
 
 extern template void
 prepare(const CorrespondenceView<float>&,
-        std::size_t,
+        const Parameters&,
         const std::optional<Vec3>&,
         Preparation&,
         Problem&);
 extern template void
 prepare(const CorrespondenceView<double>&,
-        std::size_t,
+        const Parameters&,
         const std::optional<Vec3>&,
         Preparation&,
         Problem&);
 extern template void
 prepareLike(const Preparation&,
             const CorrespondenceView<double>&,
-            std::size_t,
+            const Parameters&,
             Problem&);
 
 } // namespace pcl_flashreg

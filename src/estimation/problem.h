@@ -4,7 +4,9 @@
 #pragma once
 
 #include "support/aligned_buffer.h"
+#include "math/compatibility.h"
 #include "math/pose.h"
+#include "math/upright.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +26,13 @@ struct Problem {
   AlignedBuffer<float> sx, sy, sz, tx, ty, tz;
   /** \brief Largest distance of a point from the centre of its side. */
   float radius = 0;
+  /** \brief What poses keep to. */
+  Upright upright;
+  /** \brief Of upright motions alone: how much higher the target point is than the source
+   * point, each above the centre of its side. */
+  AlignedBuffer<float> rise;
 
+  /** \brief Once it is known what poses keep to. */
   void
   resize(std::size_t n)
   {
@@ -32,12 +40,27 @@ struct Problem {
     padded_size = (n + WORD_BITS - 1) / WORD_BITS * WORD_BITS;
     for (AlignedBuffer<float>* coordinate : {&sx, &sy, &sz, &tx, &ty, &tz})
       coordinate->resize(padded_size);
+    rise.resize(upright.required ? padded_size : 0);
   }
 
   PointPair
   pair(std::size_t i) const
   {
     return {sx[i], sy[i], sz[i], tx[i], ty[i], tz[i]};
+  }
+
+  /** \brief Whether two correspondences are an edge of the first-order graph. */
+  bool
+  isEdge(std::size_t i,
+         std::size_t j,
+         float length_tolerance,
+         float min_length_sum) const
+  {
+    const PointPair a = pair(i), b = pair(j);
+    return compatible(a, b, length_tolerance, min_length_sum) &&
+           (!upright.required ||
+            keepsHeight(
+                a, b, rise[i], rise[j], length_tolerance, upright.squared_slope));
   }
 
   Vec3

@@ -111,7 +111,7 @@ public:
     }
     walk(best);
     for (int walks = 1; walks < WALKS; ++walks) {
-      study(peaksOf(walks_, TAKEN_UP));
+      study(peaksOf(walks_, clouds_.upright, TAKEN_UP));
       const std::size_t now = bestOf();
       if (now == best)
         break;

@@ -53,6 +53,13 @@ notMirrored(const Evidence& e)
   return logistic(3 * (1.2 - e.mirrored));
 }
 
+/** \brief Where a pose that gravity forbids explains as much, gravity may be wrong. */
+double
+notTilted(const Evidence& e)
+{
+  return 1 / (1 + std::pow(e.tilted, 1.5));
+}
+
 /** \brief What every pose needs that clouds are to confirm, whatever else speaks for it: an
  * even chance for each that it just lacks. */
 double
@@ -142,7 +149,7 @@ confidenceOf(const Evidence& evidence)
   const double p = evidence.has_clouds ? confidenceOfClouds(evidence)
                                        : fromCorrespondences(evidence) *
                                              neededOfCorrespondences(evidence);
-  return p * notMirrored(evidence);
+  return p * notMirrored(evidence) * notTilted(evidence);
 }
 
 } // namespace pcl_flashreg

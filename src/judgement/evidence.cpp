@@ -65,13 +65,18 @@ shareOfAllPairs(const Problem& problem, const Pose& pose, float inlier_distance)
 }
 
 /** \brief Poses that differ in their inliers: steps of half the inlier distance in three
- * directions, and of what moves the farthest point as much in three turns. */
+ * directions, and of what moves the farthest point as much in three turns. Upright ones turn
+ * about two axes only as far as they may tilt. */
 double
 logOfPoses(const Problem& problem, float inlier_distance)
 {
-  constexpr double STEPS = 2, MOTIONS = 6;
-  return MOTIONS *
-         std::log(std::max(1.0, STEPS * 2 * problem.radius / inlier_distance));
+  constexpr double STEPS = 2, MOTIONS = 6, TILTS = 2;
+  const double steps = STEPS * 2 * problem.radius / inlier_distance;
+  const double of_one = std::log(std::max(1.0, steps));
+  if (!problem.upright.required)
+    return MOTIONS * of_one;
+  return (MOTIONS - TILTS) * of_one +
+         TILTS * std::log(std::max(1.0, steps * problem.upright.sine));
 }
 
 /** \brief Bound on the logarithm of the chance of that many hits in so many draws (Chernoff,

@@ -4,14 +4,13 @@
 #include "judgement/mirror.h"
 
 #include "judgement/evidence.h"
+#include "judgement/explained.h"
 #include "math/residual.h"
 #include "math/symmetric3.h"
 #include "math/triplet_alignment.h"
-#include "math/weighted_alignment.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 namespace pcl_flashreg {
@@ -29,18 +28,6 @@ struct Plane {
   Vec3 normal;
   Vec3 point;
 };
-
-/** \brief An isometry that agrees with these rows, ascending. */
-struct Explained {
-  Pose pose;
-  std::vector<int> rows;
-};
-
-Explained
-explainedBy(const Problem& problem, const Pose& pose, float inlier_distance)
-{
-  return {pose, inliersOf(problem, pose, inlier_distance)};
-}
 
 /** \brief The pose after the source was turned over about a plane. */
 Pose
@@ -87,33 +74,6 @@ countAsked(const Problem& problem, const PoseF& pose, float inlier_distance)
   return agreeing;
 }
 
-/** \brief Rounds of weighted alignment, as stage 7: of the source's points turned over about
- * the origin, since every reflection is a motion of these. */
-Explained
-refined(const Problem& problem, const Pose& start, float inlier_distance)
-{
-  Explained best = explainedBy(problem, start, inlier_distance);
-  for (int round = 0; round < ROUNDS; ++round) {
-    AlignmentSums sums;
-    for (const int row : best.rows) {
-      const auto i = static_cast<std::size_t>(row);
-      const Vec3 d = (1.0 / inlier_distance) *
-                     (transform(best.pose, problem.source(i)) - problem.target(i));
-      sums.add(1 / (1 + dot(d, d)), -1.0 * problem.source(i), problem.target(i));
-    }
-    Pose next;
-    if (!alignWeighted(sums, next))
-      break;
-    for (double& entry : next.r)
-      entry = -entry;
-    Explained found = explainedBy(problem, next, inlier_distance);
-    if (found.rows.size() <= best.rows.size())
-      break;
-    best = std::move(found);
-  }
-  return best;
-}
-
 /** \brief The reflection that explains most; none where all cliques are degenerate. */
 Explained
 bestReflection(const Problem& problem,
@@ -134,7 +94,11 @@ bestReflection(const Problem& problem,
   for (std::size_t k = 0; k < std::min(REFINED, ranked.size()); ++k) {
     if (ranked[k].first == 0)
       break;
-    Explained found = refined(problem, reflections[ranked[k].second], inlier_distance);
+    Explained found = refined(problem,
+                              reflections[ranked[k].second],
+                              {/* mirrored */ true, {}},
+                              ROUNDS,
+                              inlier_distance);
     if (found.rows.size() > best.rows.size())
       best = std::move(found);
   }
@@ -173,15 +137,6 @@ planeThrough(const Problem& problem, std::vector<int> rows, float reach)
   return plane;
 }
 
-std::vector<int>
-without(const std::vector<int>& rows, const std::vector<int>& others)
-{
-  std::vector<int> left;
-  std::set_difference(
-      rows.begin(), rows.end(), others.begin(), others.end(), std::back_inserter(left));
-  return left;
-}
-
 } // namespace
 
 double
@@ -203,9 +158,7 @@ mirroredEvidence(const Problem& problem,
     alone = without(alone, rows);
     others = std::max(others, without(rows, mirrored.rows).size());
   }
-  const auto for_mirror = static_cast<double>(alone.size());
-  const auto against = static_cast<double>(others);
-  return (for_mirror - against) / std::sqrt(std::max(1.0, for_mirror + against));
+  return leadOf(alone.size(), others);
 }
 
 } // namespace pcl_flashreg

@@ -3,6 +3,8 @@
 
 #include "judgement/walk.h"
 
+#include "judgement/tilt.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +29,9 @@ constexpr double FAR = 9;
 /** \brief No more than half a turn; of small things, in so many steps at least, a third of
  * them near. */
 constexpr int STEPS_TO_HALF_TURN = 9;
+
+/** \brief In degrees more than a pose may tilt: it is not on the surface yet. */
+constexpr double MOST_TILT = 3;
 
 constexpr double PI = 3.14159265358979323846;
 
@@ -75,7 +80,7 @@ walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool)
 }
 
 std::vector<Pose>
-peaksOf(const std::vector<Walk>& walks, std::size_t most)
+peaksOf(const std::vector<Walk>& walks, const Upright& upright, std::size_t most)
 {
   struct Peak {
     double height;
@@ -89,7 +94,8 @@ peaksOf(const std::vector<Walk>& walks, std::size_t most)
     };
     for (std::size_t i = 0; i < walk.stops.size(); ++i)
       if (std::abs(walk.stops[i].way) >= walk.far && height(i) >= height(i - 1) &&
-          height(i) > height(i + 1))
+          height(i) > height(i + 1) &&
+          !tiltsBeyond(upright, walk.stops[i].pose, MOST_TILT))
         peaks.push_back({height(i), walk.stops[i].pose});
   }
   std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) {

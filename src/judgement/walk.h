@@ -43,8 +43,8 @@ std::vector<Walk>
 walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool);
 
 /** \brief Where clouds that were walked over say most, far off: at most `most` poses, the best
- * first. */
+ * first, and none that tilts much more than it may. */
 std::vector<Pose>
-peaksOf(const std::vector<Walk>& walks, std::size_t most);
+peaksOf(const std::vector<Walk>& walks, const Upright& upright, std::size_t most);
 
 } // namespace pcl_flashreg

@@ -44,4 +44,25 @@ compatible(const PointPair& a,
          source_length + target_length > min_length_sum;
 }
 
+/** \brief What an upright motion asks of an edge besides compatible(): the difference in
+ * height is kept, but for the tolerance and what the largest tilt makes of the source's
+ * distance. Rounded once an operation, too.
+ * \param[in] rise_a, rise_b how much higher the target point of either is than its source
+ * point, each above the centre of its side
+ * \param[in] squared_slope see Upright
+ */
+PCL_FLASHREG_HD inline bool
+keepsHeight(const PointPair& a,
+            const PointPair& b,
+            float rise_a,
+            float rise_b,
+            float length_tolerance,
+            float squared_slope)
+{
+  const float dx = a.sx - b.sx, dy = a.sy - b.sy, dz = a.sz - b.sz;
+  const float squared_length = (dx * dx + dy * dy) + dz * dz;
+  const float excess = fabsf(rise_a - rise_b) - length_tolerance;
+  return excess < 0 || excess * excess < squared_slope * squared_length;
+}
+
 } // namespace pcl_flashreg

@@ -57,4 +57,19 @@ edgeFilter(double radius, float length_tolerance, float min_length_sum)
   return filter;
 }
 
+/** \brief Of an upright motion, with e the excess in height, which is the exact test's to the
+ * last bit, and k the squared slope: a pair keeps its height for certain if e |e| - k a is
+ * below minus this, and possibly if it is below this. Near the zero of e^2 - k a both terms
+ * are at most 4 k R^2; a carries 20 u R^2 here and 16 u R^2 in the exact test, and the
+ * products round by 12 k u R^2. Where e is negative, k a below 20 k u R^2 in the other
+ * direction is all that speaks against the pair. The constant is far above where
+ * products of tiny numbers lose their precision. Holds where EdgeFilter::use does. */
+inline float
+heightMargin(double radius, float squared_slope)
+{
+  constexpr double UNIT_ROUNDOFF = 1.0 / (1 << 24);
+  const double R = radius * (1 + 1e-6);
+  return static_cast<float>(128 * UNIT_ROUNDOFF * squared_slope * R * R + 1e-37);
+}
+
 } // namespace pcl_flashreg

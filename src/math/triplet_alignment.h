@@ -5,6 +5,8 @@
 
 #include "math/host_device.h"
 #include "math/pose.h"
+#include "math/upright.h"
+#include "math/weighted_alignment.h"
 
 #include <cmath>
 
@@ -101,6 +103,28 @@ alignTriplet(const Vec3 s[3], const Vec3 t[3], Pose& T_target_source)
   if (!(norm > 0))
     return false;
   composeFrames(from, to, cosine / norm, sine / norm, T_target_source.r);
+  setTranslation(T_target_source, source_mean, target_mean);
+  return true;
+}
+
+/** \brief The same of an upright motion: a pose that tilts more than it may is turned back,
+ * and to the best heading that it has then. */
+PCL_FLASHREG_HD inline bool
+alignTriplet(const Vec3 s[3],
+             const Vec3 t[3],
+             const Upright& upright,
+             Pose& T_target_source)
+{
+  if (!alignTriplet(s, t, T_target_source))
+    return false;
+  if (!limitTilt(upright, T_target_source.r))
+    return true;
+  const Vec3 source_mean = (1.0 / 3.0) * (s[0] + s[1] + s[2]);
+  const Vec3 target_mean = (1.0 / 3.0) * (t[0] + t[1] + t[2]);
+  AlignmentSums sums;
+  for (int i = 0; i < 3; ++i)
+    sums.add(1, s[i] - source_mean, t[i] - target_mean);
+  turnToBestHeading(upright.target_up, sums.products, T_target_source.r);
   setTranslation(T_target_source, source_mean, target_mean);
   return true;
 }

@@ -6,6 +6,7 @@
 #include "math/host_device.h"
 #include "math/pose.h"
 #include "math/symmetric4.h"
+#include "math/upright.h"
 
 #include <cmath>
 
@@ -124,6 +125,24 @@ alignWeighted(const AlignmentSums& sums, Pose& T_target_source)
   if (!largestEigenvector4(n, -8 * determinant, q))
     return false;
   quaternionToRotation(q, T_target_source.r);
+  setTranslation(T_target_source, source_mean, target_mean);
+  return true;
+}
+
+/** \brief The same of an upright motion: a pose that tilts more than it may is turned back,
+ * and to the best heading that it has then. */
+PCL_FLASHREG_HD inline bool
+alignWeighted(const AlignmentSums& sums, const Upright& upright, Pose& T_target_source)
+{
+  if (!alignWeighted(sums, T_target_source))
+    return false;
+  if (!limitTilt(upright, T_target_source.r))
+    return true;
+  const Vec3 source_mean = (1.0 / sums.weight) * sums.source;
+  const Vec3 target_mean = (1.0 / sums.weight) * sums.target;
+  AlignmentSums centred = sums;
+  centred.add(-1.0, sums.weight * source_mean, target_mean);
+  turnToBestHeading(upright.target_up, centred.products, T_target_source.r);
   setTranslation(T_target_source, source_mean, target_mean);
   return true;
 }

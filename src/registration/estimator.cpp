@@ -46,12 +46,13 @@ run(PoseSearch& search,
     return search.run(correspondences, parameters, guess, &judges);
   // A scan is looked for in a map, whichever of them is the source.
   std::swap(judges.source, judges.target);
-  CorrespondenceView<Scalar> exchanged = correspondences;
-  std::swap(exchanged.source_xyz, exchanged.target_xyz);
+  CorrespondenceView<Scalar> there_and_back = correspondences;
+  std::swap(there_and_back.source_xyz, there_and_back.target_xyz);
   std::optional<RigidTransform> guess_back;
   if (guess)
     guess_back = inverseOf(*guess);
-  Result result = search.run(exchanged, parameters, guess_back, &judges);
+  Result result =
+      search.run(there_and_back, exchanged(parameters), guess_back, &judges);
   exchange(result);
   return result;
 }

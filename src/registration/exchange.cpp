@@ -52,6 +52,13 @@ exchange(Result& result)
     hypothesis.T_target_source = inverseOf(hypothesis.T_target_source);
 }
 
+Parameters
+exchanged(Parameters parameters)
+{
+  std::swap(parameters.source_gravity, parameters.target_gravity);
+  return parameters;
+}
+
 void
 exchange(std::vector<FeatureMatch>& matches)
 {

@@ -16,6 +16,10 @@ inverseOf(const RigidTransform& T);
 void
 exchange(Result& result);
 
+/** \brief The same of what is asked for. */
+Parameters
+exchanged(Parameters parameters);
+
 /** \brief The same of keypoints that match. */
 void
 exchange(std::vector<FeatureMatch>& matches);

@@ -213,7 +213,7 @@ PairCall::estimate(const CorrespondenceView<Scalar>& correspondences,
       options_.cloud_check && !result_.source.empty() && !result_.target.empty();
   result_.pose = workers_.search.run(
       correspondences,
-      result_.parameters,
+      exchanged_ ? exchanged(result_.parameters) : result_.parameters,
       exchanged_ && options_.guess ? inverseOf(*options_.guess) : options_.guess,
       ask ? &clouds : nullptr,
       second_look);

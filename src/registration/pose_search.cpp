@@ -6,6 +6,7 @@
 #include "judgement/confidence.h"
 #include "judgement/evidence.h"
 #include "judgement/mirror.h"
+#include "judgement/tilt.h"
 #include "estimation/information.h"
 #include "estimation/leftover.h"
 #include "math/distinctness.h"
@@ -66,6 +67,15 @@ withRivals(Parameters parameters, bool for_clouds)
   parameters.max_hypotheses =
       std::max(parameters.max_hypotheses, for_clouds ? LISTED_FOR_CLOUDS : LISTED);
   return parameters;
+}
+
+/** \brief With which the clouds came to it. */
+Belief
+beliefOf(const Evidence& evidence)
+{
+  if (evidence.has_sides)
+    return Belief::Sides;
+  return evidence.has_viewpoints ? Belief::Viewpoints : Belief::Nothing;
 }
 
 /** \brief The most inliers that a hypothesis other than the first has. */
@@ -151,10 +161,7 @@ PoseSearch::lookAt(const OtherCorrespondences& other,
                    Problem& problem,
                    CloudCheck& check)
 {
-  prepareLike(preparation_,
-              other.correspondences.view(),
-              static_cast<std::size_t>(parameters.max_correspondences),
-              problem);
+  prepareLike(preparation_, other.correspondences.view(), parameters, problem);
   if (other.are_witnesses)
     check.addWitnesses(problem);
   if (problem.size < 3)
@@ -225,6 +232,9 @@ PoseSearch::askClouds(const JudgingClouds& clouds,
   if (findings.evidence.inliers < 3 && !findings.evidence.in_map)
     return {};
   takeOver(findings, parameters, estimate);
+  const SurfacePair believed = surfaces.believing(beliefOf(findings.evidence));
+  findings.evidence.tilted = tiltedEvidence(
+      problem_, &believed, findings.poses.front().pose, parameters.inlier_distance);
   return findings;
 }
 
@@ -349,6 +359,7 @@ PoseSearch::prepareClouds(const JudgingClouds& clouds)
           target_surface,
           spacing,
           Belief::Viewpoints,
+          problem_.upright,
           is_map ? &vicinity_ : nullptr};
 }
 
@@ -369,17 +380,16 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
   std::optional<Vec3> middle;
   if (clouds && clouds->areScanAndMap())
     middle = clouds->target.middle();
-  prepare(correspondences,
-          static_cast<std::size_t>(parameters.max_correspondences),
-          middle,
-          preparation_,
-          problem_);
+  prepare(correspondences, parameters, middle, preparation_, problem_);
   result.correspondences_used = preparation_.rows.size();
   result.correspondences_dropped = preparation_.dropped;
   result.correspondences_invalid = preparation_.invalid;
   std::optional<Pose> centred_guess;
-  if (guess && guess->rotation.allFinite() && guess->translation.allFinite())
+  if (guess && guess->rotation.allFinite() && guess->translation.allFinite()) {
     centred_guess = toCentred(*guess);
+    // Turned back about the centre of the source.
+    limitTilt(problem_.upright, centred_guess->r);
+  }
   clock.finish(&StageTimings::preparation);
 
   if (problem_.size >= 3) {
@@ -403,6 +413,11 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
     if (estimate.status == Status::Ok)
       findings.evidence.mirrored = mirroredEvidence(
           problem_, estimate.cliques, motions, parameters.inlier_distance, pool_);
+    if (estimate.status == Status::Ok && !findings.evidence.has_clouds)
+      findings.evidence.tilted = tiltedEvidence(problem_,
+                                                nullptr,
+                                                estimate.hypotheses.front().pose,
+                                                parameters.inlier_distance);
     fill(result, estimate, findings, parameters);
     clock.finish(&StageTimings::cloud_check);
   }

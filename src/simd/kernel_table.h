@@ -16,7 +16,8 @@ constexpr Kernels
 simdKernels(const char* name, decltype(Kernels::commonNeighbours) commonNeighbours)
 {
   return {name,
-          &edgeTestSimd<V>,
+          &edgeTestSimd<V, false>,
+          &edgeTestSimd<V, true>,
           &transposeBits,
           commonNeighbours,
           &countBitsIn,

@@ -29,6 +29,11 @@ struct EdgeTestInput {
    * E < possible_defect and S > possible_sum. See math/edge_filter.h. */
   float sure_defect, possible_defect;
   float sure_sum, possible_sum;
+  /** \brief Of upright motions alone: see keepsHeight(), aligned as the coordinates ... */
+  const float* rise;
+  float squared_slope;
+  /** \brief ... and heightMargin(). */
+  float height_margin;
 };
 
 /** \brief Input of the residual test of one pose on all correspondences. */
@@ -102,6 +107,9 @@ struct Kernels {
                    std::size_t column0,
                    std::uint64_t sure[64],
                    std::uint64_t possible[64]);
+
+  /** \brief The same of upright motions. */
+  decltype(edgeTest) uprightEdgeTest;
 
   /** \brief Transposes a 64 x 64 bit matrix in place. */
   void (*transpose)(std::uint64_t block[64]);

@@ -97,6 +97,7 @@ struct OneLane {
   }
 };
 
+template <bool UPRIGHT>
 void
 edgeTest(const EdgeTestInput& in,
          std::size_t row0,
@@ -111,7 +112,11 @@ edgeTest(const EdgeTestInput& in,
     for (std::size_t c = 0; c < 64; ++c) {
       const std::size_t j = column0 + c;
       const PointPair b{in.sx[j], in.sy[j], in.sz[j], in.tx[j], in.ty[j], in.tz[j]};
-      const bool edge = compatible(a, b, in.length_tolerance, in.min_length_sum);
+      bool edge = compatible(a, b, in.length_tolerance, in.min_length_sum);
+      if constexpr (UPRIGHT)
+        edge = edge &&
+               keepsHeight(
+                   a, b, in.rise[i], in.rise[j], in.length_tolerance, in.squared_slope);
       edges |= static_cast<std::uint64_t>(edge) << c;
     }
     sure[r] = possible[r] = edges;
@@ -170,7 +175,8 @@ featureCandidates(const FeatureBlock& in,
 
 extern const Kernels SCALAR_KERNELS;
 const Kernels SCALAR_KERNELS = {"scalar",
-                                &edgeTest,
+                                &edgeTest<false>,
+                                &edgeTest<true>,
                                 &transposeBits,
                                 &commonNeighboursSimd<OneLane>,
                                 &countBitsIn,

@@ -43,7 +43,7 @@ store(float* p, typename V::Float a)
   *reinterpret_cast<typename V::Unaligned*>(p) = a;
 }
 
-template <typename V>
+template <typename V, bool UPRIGHT>
 void
 edgeTestSimd(const EdgeTestInput& in,
              std::size_t row0,
@@ -59,6 +59,10 @@ edgeTestSimd(const EdgeTestInput& in,
   const Float sure_sum = V::broadcast(in.sure_sum);
   const Float possible_sum = V::broadcast(in.possible_sum);
   const Float minus_two = V::broadcast(-2.0f);
+  const Float tolerance = V::broadcast(in.length_tolerance);
+  const Float minus_slope = V::broadcast(-in.squared_slope);
+  const Float possible_height = V::broadcast(in.height_margin);
+  const Float sure_height = V::broadcast(-in.height_margin);
 
   for (std::size_t group = 0; group < 64 / V::WIDTH; ++group) {
     const std::size_t j = column0 + group * V::WIDTH;
@@ -70,6 +74,9 @@ edgeTestSimd(const EdgeTestInput& in,
     const Float tz = minus_two * loadAligned<V>(in.tz + j);
     const Float source_norm = loadAligned<V>(in.source_norm + j);
     const Float target_norm = loadAligned<V>(in.target_norm + j);
+    Float rise{};
+    if constexpr (UPRIGHT)
+      rise = loadAligned<V>(in.rise + j);
     for (std::size_t row = 0; row < 64; ++row) {
       const std::size_t i = row0 + row;
       // a = |s_i - s_j|^2 and b = |t_i - t_j|^2 from norms and inner products.
@@ -89,6 +96,12 @@ edgeTestSimd(const EdgeTestInput& in,
       is_possible = V::lessAnd(is_possible, possible_sum, sum);
       auto is_sure = V::lessAnd(is_possible, defect, sure_defect);
       is_sure = V::lessAnd(is_sure, sure_sum, sum);
+      if constexpr (UPRIGHT) {
+        const Float excess = V::abs(rise - V::broadcast(in.rise[i])) - tolerance;
+        const Float height = V::fma(excess, V::abs(excess), minus_slope * a);
+        is_possible = V::lessAnd(is_possible, height, possible_height);
+        is_sure = V::lessAnd(is_sure, height, sure_height);
+      }
       V::store(is_possible, possible + row, group);
       V::store(is_sure, sure + row, group);
     }

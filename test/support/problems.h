@@ -105,6 +105,27 @@ farApart(double side)
   return problem;
 }
 
+/** \brief The same, of an upright motion.
+ * \param[in] error of the target's gravity, in degrees
+ * \param[in] max_tilt see Parameters */
+inline NamedProblem
+upright(NamedProblem problem, double error, float max_tilt)
+{
+  const Eigen::Vector3d source(0.3, -2, 1);
+  const Eigen::Vector3d across = source.unitOrthogonal();
+  const Eigen::Matrix3d off =
+      Eigen::AngleAxisd(error * 3.14159265358979323846 / 180, across)
+          .toRotationMatrix();
+  const Eigen::Vector3f target =
+      (problem.correspondences.T_target_source.linear() * off * source).cast<float>();
+  problem.name += "_upright" + std::to_string(static_cast<int>(error));
+  problem.parameters.motion = MotionModel::Upright;
+  problem.parameters.max_tilt = max_tilt;
+  problem.parameters.source_gravity = {0.3f, -2, 1};
+  problem.parameters.target_gravity = {target.x(), target.y(), target.z()};
+  return problem;
+}
+
 inline std::vector<NamedProblem>
 problems()
 {
@@ -122,6 +143,18 @@ problems()
   all.push_back(farApart(300));
   all.push_back(farApart(30000));
   all.push_back(farApart(3e7));
+  for (const std::size_t n : {0, 2, 3, 64, 129, 513, 1000})
+    all.push_back(upright(sized(n, 0.3), 2, 3));
+  all.push_back(upright(sized(700, 1), 1, 0.5f)); // turned back in every stage
+  all.push_back(upright(sized(300, 0.9), 20, 15));
+  all.push_back(upright(sized(300, 0.9), 180, 30));
+  all.push_back(upright(emptyGraph(), 0, 3));
+  all.push_back(upright(longRows(), 2, 3));
+  all.push_back(upright(tiedGrid(), 3, 2));
+  all.push_back(upright(dirty(), 0, 1e-6f));
+  all.push_back(upright(farApart(300), 1, 2));
+  all.push_back(upright(farApart(30000), 1, 2));
+  all.push_back(upright(farApart(3e7), 1, 2));
   return all;
 }
 

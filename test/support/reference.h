@@ -64,10 +64,10 @@ forRows(std::size_t rows, unsigned threads, const Body& body)
     worker.join();
 }
 
-/** \brief |a - b| of rows i and j of N x 3 floats, an operation at a time: the volatile
+/** \brief |a - b|^2 of rows i and j of N x 3 floats, an operation at a time: the volatile
  * keeps the compiler from contracting or widening any of them. */
 inline float
-distance(const std::vector<float>& xyz, std::size_t i, std::size_t j)
+squaredDistance(const std::vector<float>& xyz, std::size_t i, std::size_t j)
 {
   volatile float squared[3];
   for (int k = 0; k < 3; ++k) {
@@ -76,7 +76,13 @@ distance(const std::vector<float>& xyz, std::size_t i, std::size_t j)
   }
   volatile float sum = squared[0] + squared[1];
   sum = sum + squared[2];
-  return std::sqrt(sum);
+  return sum;
+}
+
+inline float
+distance(const std::vector<float>& xyz, std::size_t i, std::size_t j)
+{
+  return std::sqrt(squaredDistance(xyz, i, j));
 }
 
 /** \brief Eq. (fog). */
@@ -97,6 +103,29 @@ firstOrderGraph(const std::vector<float>& source,
     }
   });
   return graph;
+}
+
+/** \brief Takes out the edges that an upright motion does not have.
+ * \param[in] rise how much higher each target point is than its source point
+ * \param[in] max_tilt in degrees */
+inline void
+keepHeights(const std::vector<float>& source,
+            const std::vector<float>& rise,
+            float tau,
+            float max_tilt,
+            Matrix<char>& graph)
+{
+  const double chord = 2 * std::sin(max_tilt * (3.14159265358979323846 / 180) / 2);
+  const float slope = static_cast<float>(chord * chord);
+  for (std::size_t i = 0; i < graph.n; ++i)
+    for (std::size_t j = 0; j < graph.n; ++j) {
+      volatile float difference = rise[i] - rise[j];
+      volatile float excess = std::abs(difference) - tau;
+      volatile float squared_excess = excess * excess;
+      volatile float allowed = slope * squaredDistance(source, i, j);
+      if (!(excess < 0 || squared_excess < allowed))
+        graph.at(i, j) = 0;
+    }
 }
 
 /** \brief Eq. (sog), whole matrix. */

@@ -108,7 +108,7 @@ __launch_bounds__(WARP) alignByPartialSums(const PartialSums* partial_sums,
   inliers = warpSum(inliers);
   __syncthreads();
   if (threadIdx.x == 0)
-    *round = {inliers, align(total.sums, *next)};
+    *round = {inliers, align(total.sums, {}, *next)};
 }
 
 struct ListShared {

@@ -20,6 +20,10 @@ struct Problem {
   /** \brief With descriptors, unless the data set brings its own correspondences; empty if
    * it does so without clouds. */
   Scan source, target;
+  /** \brief The pair's, for methods that something is made up for. */
+  const std::string& name;
+  /** \brief T_target_source, of which methods are told what a sensor would tell them. */
+  const RigidTransform& truth;
 };
 
 /** \brief What a method says of a pair. */

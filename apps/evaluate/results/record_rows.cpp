@@ -42,6 +42,7 @@ resultColumns()
           "breadth",
           "log_chance",
           "mirrored",
+          "tilted",
           "rivals",
           "hold",
           "residual"};
@@ -97,6 +98,7 @@ resultCells(const Record& r)
                 io::toText(e.breadth),
                 io::toText(e.log_chance),
                 io::toText(e.mirrored),
+                io::toText(e.tilted),
                 io::toText(e.rivals),
                 io::toText(e.hold),
                 io::toText(e.agreement.residual)});
@@ -156,6 +158,7 @@ recordFromCells(const std::vector<std::string>& cells)
   e.breadth = reader.number();
   e.log_chance = reader.number();
   e.mirrored = reader.number();
+  e.tilted = reader.number();
   e.rivals = reader.number();
   e.hold = reader.number();
   e.agreement.residual = reader.number();

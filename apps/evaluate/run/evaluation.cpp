@@ -122,8 +122,13 @@ evaluatePair(std::size_t number,
   record.correspondences = prepared.correspondences.size();
   record.inlier_ratio =
       inlierRatio(prepared.correspondences, truth, job.parameters.inlier_distance);
-  const Problem problem{
-      prepared.correspondences, prepared.matches, prepared.source, prepared.target};
+  const std::string name = pair.source + " " + pair.target;
+  const Problem problem{prepared.correspondences,
+                        prepared.matches,
+                        prepared.source,
+                        prepared.target,
+                        name,
+                        truth};
   std::vector<Record> records;
   for (const NamedMethod& method : methods) {
     record.method = method.name;

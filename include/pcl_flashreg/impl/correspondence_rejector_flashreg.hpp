@@ -28,6 +28,7 @@ CorrespondenceRejectorFlashReg<PointT>::getParameters() const
         Parameters::fromResolution(0.5 * inlier_threshold_.value_or(default_threshold));
   if (inlier_threshold_)
     parameters.inlier_distance = static_cast<float>(*inlier_threshold_);
+  applyMotion(parameters);
   return parameters;
 }
 

@@ -129,6 +129,7 @@ FlashMultiviewRegistration<PointT>::compute()
     MultiviewOptions options = options_;
     if (parameters_)
       options.pair = optionsWith(*parameters_);
+    applyMotion(options.pair.parameters);
     options.pair.resolution = resolution;
     MultiviewRegistration registration(registration_.backend(),
                                        registration_.numThreads());

@@ -101,6 +101,7 @@ PairOptions
 FlashRegistration<PointSource, PointTarget, FeatureT>::pairOptions() const
 {
   PairOptions options = parameters_ ? optionsWith(*parameters_) : PairOptions();
+  applyMotion(options.parameters);
   if (resolution_ != 0)
     options.resolution = resolution_;
   if (hasInlierDistance())

@@ -49,6 +49,9 @@ Stages::edgeTestInput()
   in.possible_defect = filter.possible_defect;
   in.sure_sum = filter.sure_sum;
   in.possible_sum = filter.possible_sum;
+  in.rise = p.rise.data();
+  in.squared_slope = p.upright.squared_slope;
+  in.height_margin = heightMargin(p.radius, p.upright.squared_slope);
   return in;
 }
 
@@ -65,14 +68,14 @@ Stages::testBlock(const EdgeTestInput& input,
   const std::size_t row0 = row_block * WORD_BITS;
   const std::size_t column0 = column_block * WORD_BITS;
   const Kernels& kernels = input.use_filter ? kernels_ : scalarKernels();
-  kernels.edgeTest(input, row0, column0, edges, possible);
+  const auto test =
+      problem_->upright.required ? kernels.uprightEdgeTest : kernels.edgeTest;
+  test(input, row0, column0, edges, possible);
   for (std::size_t r = 0; r < WORD_BITS; ++r)
     for (std::uint64_t open = possible[r] & ~edges[r]; open != 0; open &= open - 1) {
       const int c = __builtin_ctzll(open);
-      if (compatible(problem_->pair(row0 + r),
-                     problem_->pair(column0 + c),
-                     input.length_tolerance,
-                     input.min_length_sum))
+      if (problem_->isEdge(
+              row0 + r, column0 + c, input.length_tolerance, input.min_length_sum))
         edges[r] |= std::uint64_t{1} << c;
     }
   if (row_block == column_block)

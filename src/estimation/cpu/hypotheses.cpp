@@ -26,7 +26,7 @@ Stages::hypotheses()
       const Problem& p = *problem_;
       const Vec3 source[3] = {p.source(c.u), p.source(c.v), p.source(c.w)};
       const Vec3 target[3] = {p.target(c.u), p.target(c.v), p.target(c.w)};
-      pose_valid_[i] = alignTriplet(source, target, poses_[i]);
+      pose_valid_[i] = alignTriplet(source, target, p.upright, poses_[i]);
     }
   });
   if (guess_) {

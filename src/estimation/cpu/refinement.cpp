@@ -37,7 +37,7 @@ Stages::refine(const Pose& start)
         lanes[lane++ % ALIGNMENT_LANES].add(1.0 / (1.0 + dot(d, d)), s, t);
       }
     Pose next;
-    if (!alignWeighted(sumLanes(lanes), next))
+    if (!alignWeighted(sumLanes(lanes), problem_->upright, next))
       break;
     best.pose = next;
     const int previous = count;

@@ -6,6 +6,7 @@
 #include "judgement/cpu/surface.h"
 #include "judgement/cpu/vicinity.h"
 #include "math/rigid_float.h"
+#include "math/upright.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,8 @@ struct SurfacePair {
   /** \brief Distance of neighbouring points. */
   float spacing;
   Belief belief = Belief::Viewpoints;
+  /** \brief What poses keep to. */
+  Upright upright = {};
   /** \brief Null where all of the target matters under any pose. */
   const Vicinity* vicinity = nullptr;
 
@@ -40,7 +43,7 @@ struct SurfacePair {
   SurfacePair
   believing(Belief other) const
   {
-    return {source, target, spacing, other, vicinity};
+    return {source, target, spacing, other, upright, vicinity};
   }
 
   /** \brief Points of the target that the source can meet. */

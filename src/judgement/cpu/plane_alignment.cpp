@@ -70,6 +70,25 @@ stepOntoPlanes(const std::vector<Contact>& contacts, float spacing)
   return step;
 }
 
+namespace {
+
+/** \brief Turned back about the middle of the step's contacts, where it tilts too much. */
+void
+keepUpright(const Upright& upright, const PlaneStep& step, RigidFloat& moved)
+{
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Rows before = moved.rotation.cast<double>();
+  Rows after = before;
+  if (!limitTilt(upright, after.data()))
+    return;
+  const Eigen::Vector3d middle = step.middle + step.shift;
+  const Eigen::Vector3d arm = moved.translation.cast<double>() - middle;
+  moved.translation = (after * before.transpose() * arm + middle).cast<float>();
+  moved.rotation = after.cast<float>();
+}
+
+} // namespace
+
 Pose
 moveOntoTarget(const SurfacePair& clouds, const Pose& pose)
 {
@@ -84,11 +103,14 @@ moveOntoTarget(const SurfacePair& clouds, const Pose& pose)
     const Eigen::Vector3d shifted = *step * moved.translation.cast<double>();
     moved.rotation = (step->rotation * moved.rotation.cast<double>()).cast<float>();
     moved.translation = shifted.cast<float>();
+    keepUpright(clouds.upright, *step, moved);
   }
   Pose result;
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(result.r) =
       Eigen::Quaterniond(moved.rotation.cast<double>()).normalized().toRotationMatrix();
   Eigen::Map<Eigen::Vector3d>(result.t) = moved.translation.cast<double>();
+  // What single precision lost.
+  limitTilt(clouds.upright, result.r);
   return result;
 }
 
