@@ -212,6 +212,11 @@ struct ScanInput {
    * cloud with a singlePrecisionShift() is never believed: nobody sees that far. */
   bool viewpoint_known = false;
 
+  /** \brief Whether the points were seen from many places that nobody knows, as those of a map:
+   * computed normals are then turned to where somebody can have stood who saw them, whatever
+   * the viewpoint, and the scan knows no viewpoint. Takes a few times as long as all else. */
+  bool many_viewpoints = false;
+
   /** \brief A scan that was made from the same input: it is taken in place of a new one
    * where its spacing and its content suit. Null (the default) where there is none. */
   const Scan* made = nullptr;

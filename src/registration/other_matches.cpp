@@ -6,6 +6,7 @@
 #include "localization/places.h"
 #include "matching/search.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pcl_flashreg {
@@ -13,6 +14,17 @@ namespace {
 
 /** \brief Parts of a map that are looked at, at either resolution. */
 constexpr std::size_t MOST_PLACES = 16;
+
+/** \brief Of several matches of each query the first. */
+std::vector<FeatureMatch>
+firstOfEach(std::vector<FeatureMatch> matches)
+{
+  const auto sameQuery = [](const FeatureMatch& a, const FeatureMatch& b) {
+    return a.query == b.query;
+  };
+  matches.erase(std::unique(matches.begin(), matches.end(), sameQuery), matches.end());
+  return matches;
+}
 
 } // namespace
 
@@ -70,52 +82,66 @@ OtherMatches::makeCoarse()
                                 : workers_.maker.coarser(scans_.target, COARSER);
 }
 
-/** \brief Those at either resolution in turn. */
 void
-OtherMatches::findPlaces()
+OtherMatches::addPlaces(const Scan& scan,
+                        const Scan& map,
+                        const std::vector<FeatureMatch>& matches)
 {
-  ThreadPool& pool = workers_.search.pool();
-  std::vector<std::vector<Correspondences>> found;
-  const auto add =
-      [&](const Scan& scan, const Scan& map, const std::vector<FeatureMatch>& matches) {
-        std::vector<Correspondences>& places = found.emplace_back();
-        for (const auto& place : matchesByPlace(scan, map, matches, MOST_PLACES))
-          places.push_back(toCorrespondences(scan, map, place));
-      };
-  const ScanIndex::Data* const index = scans_.index;
-  const Scan &source = scans_.source, &target = scans_.target;
-  add(source,
-      target,
-      matchInMap(
-          source, target, index ? &index->features : nullptr, NEIGHBORS_IN_MAP, pool));
+  for (const auto& place : matchesByPlace(scan, map, matches, MOST_PLACES))
+    parts_.push_back({toCorrespondences(scan, map, place), false, true});
+}
+
+void
+OtherMatches::addCoarseParts()
+{
   // Who brings descriptors of his own has them for these keypoints alone.
-  if (areOurs()) {
-    makeCoarse();
-    add(coarse_source_,
-        coarse_target_,
-        matchInMap(coarse_source_,
-                   coarse_target_,
-                   index ? &index->coarse_features : nullptr,
-                   NEIGHBORS_IN_MAP,
-                   pool));
-  }
-  for (std::size_t rank = 0; rank < MOST_PLACES; ++rank)
-    for (std::vector<Correspondences>& places : found)
-      if (rank < places.size())
-        places_.push_back({std::move(places[rank]), false, true});
+  if (!areOurs())
+    return;
+  makeCoarse();
+  const std::vector<FeatureMatch> matches =
+      matchInMap(coarse_source_,
+                 coarse_target_,
+                 scans_.index ? &scans_.index->coarse_features : nullptr,
+                 NEIGHBORS_IN_MAP,
+                 workers_.search.pool());
+  parts_.push_back(
+      {toCorrespondences(coarse_source_, coarse_target_, firstOfEach(matches)),
+       false,
+       false});
+  addPlaces(coarse_source_, coarse_target_, matches);
+}
+
+void
+OtherMatches::addFineParts()
+{
+  addPlaces(scans_.source,
+            scans_.target,
+            matchInMap(scans_.source,
+                       scans_.target,
+                       scans_.index ? &scans_.index->features : nullptr,
+                       NEIGHBORS_IN_MAP,
+                       workers_.search.pool()));
+}
+
+/** \brief Coarse ones first: they cost a fifth, and more of them are right. */
+std::optional<OtherCorrespondences>
+OtherMatches::getInMap(std::size_t number)
+{
+  if (number == 0)
+    addCoarseParts();
+  if (number == parts_.size() && !std::exchange(has_fine_, true))
+    addFineParts();
+  if (number == parts_.size())
+    return std::nullopt;
+  return std::move(parts_[number]);
 }
 
 std::optional<OtherCorrespondences>
 OtherMatches::get(std::size_t number)
 {
   const Scan &source = scans_.source, &target = scans_.target;
-  if (isMapFor(target, source)) {
-    if (number == 0)
-      findPlaces();
-    if (number == places_.size())
-      return std::nullopt;
-    return std::move(places_[number]);
-  }
+  if (isMapFor(target, source))
+    return getInMap(number);
   if (number == 0)
     return OtherCorrespondences{back(source, target), true};
   if (!areOurs() || number > 2)

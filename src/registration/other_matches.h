@@ -38,8 +38,8 @@ struct MatchedScans {
  * target keypoint with its nearest of the source, and both ways again at a coarser
  * resolution. A keypoint that lies where the other cloud is not has a wrong match in any
  * case, so that of the smaller one of both overlapping shares fewer are wrong; and what is
- * smooth at one resolution may have a shape at another. In a map, the places that most
- * matches of either resolution lie in, one after the other. */
+ * smooth at one resolution may have a shape at another. In a map, all of it at the coarser
+ * resolution, and the places that most matches lie in, at either. */
 class OtherMatches {
 public:
   /** \brief Keeps all arguments. */
@@ -64,15 +64,24 @@ private:
   back(const Scan& source, const Scan& target) const;
   void
   makeCoarse();
+  std::optional<OtherCorrespondences>
+  getInMap(std::size_t number);
   void
-  findPlaces();
+  addCoarseParts();
+  void
+  addFineParts();
+  void
+  addPlaces(const Scan& scan,
+            const Scan& map,
+            const std::vector<FeatureMatch>& matches);
 
   const MatchedScans scans_;
   const PairOptions& options_;
   PairWorkers& workers_;
   Scan coarse_source_, coarse_target_;
-  /** \brief In a map. */
-  std::vector<OtherCorrespondences> places_;
+  /** \brief Of a map. */
+  std::vector<OtherCorrespondences> parts_;
+  bool has_fine_ = false;
 };
 
 } // namespace pcl_flashreg

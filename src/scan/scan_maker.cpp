@@ -4,6 +4,7 @@
 #include "scan/scan_maker.h"
 
 #include "scan/left_out.h"
+#include "scan/many_viewpoints.h"
 #include "scan/points.h"
 #include "scan/scan_data.h"
 #include "scan/viewpoint.h"
@@ -124,6 +125,7 @@ template <typename Scalar>
 PreparedInput::PreparedInput(const ScanInput<Scalar>& input)
     : viewpoint(input.viewpoint),
       viewpoint_known(input.viewpoint_known),
+      many_viewpoints(input.many_viewpoints),
       features(input.features),
       made(input.made)
 {
@@ -220,9 +222,29 @@ ScanMaker::coarser(const Scan& scan, double factor)
   return {data, Eigen::Vector3d::Zero(), ViewpointSource::Unknown};
 }
 
+void
+ScanMaker::turnToManyViewpoints(double resolution)
+{
+  const std::vector<std::uint32_t> computed = stages_.computedNormals();
+  std::vector<Eigen::Vector3f> points, normals;
+  for (const std::uint32_t keypoint : computed) {
+    points.push_back(stages_.pointAt(keypoint));
+    normals.push_back(stages_.normalAt(keypoint));
+  }
+  const std::vector<bool> away =
+      facingAway(points, normals, static_cast<float>(resolution), pool_);
+  for (std::size_t i = 0; i < computed.size(); ++i)
+    if (away[i])
+      stages_.turnNormal(computed[i]);
+}
+
 ScanMaker::Seen
 ScanMaker::turnToViewpoint(const PreparedInput& input, double resolution)
 {
+  if (input.many_viewpoints) {
+    turnToManyViewpoints(resolution);
+    return {input.viewpoint, ViewpointSource::Unknown};
+  }
   const Eigen::Vector3f stated = (input.viewpoint - input.shift).cast<float>();
   // Nobody needs a place, as given normals stay as they are; or somebody wants normals to
   // be turned to one that is not the sensor's.

@@ -30,6 +30,7 @@ struct PreparedInput {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   Eigen::Vector3d viewpoint;
   bool viewpoint_known;
+  bool many_viewpoints;
   /** \brief Whether anybody can have looked from so far. */
   bool viewpoint_possible = true;
   GivenNormals normals;
@@ -79,6 +80,9 @@ private:
   /** \brief Where the surface was seen from, and its normals turned there. */
   Seen
   turnToViewpoint(const PreparedInput& input, double resolution);
+
+  void
+  turnToManyViewpoints(double resolution);
 
   ThreadPool& pool_;
   cpu::FeatureStages stages_;

@@ -43,6 +43,16 @@ public:
    * \param[in] spacing distance of neighbouring keypoints, > 0 */
   Visibility
   visibility(std::size_t most, double spacing) const;
+  /** \brief Numbers of the keypoints whose normals were computed; of one of them where it is,
+   * its normal, and what turns it. */
+  std::vector<std::uint32_t>
+  computedNormals() const;
+  Eigen::Vector3f
+  pointAt(std::uint32_t keypoint) const;
+  Eigen::Vector3f
+  normalAt(std::uint32_t keypoint) const;
+  void
+  turnNormal(std::uint32_t keypoint);
   /** \brief Turns computed normals towards a place, and given ones if asked to. */
   void
   turnNormals(const Eigen::Vector3f& viewpoint, bool given_too);

@@ -133,13 +133,44 @@ FeatureStages::turnNormals(const Eigen::Vector3f& viewpoint, bool given_too)
     const NormalSource source = normal_sources_[i];
     if (source == NormalSource::None || (source == NormalSource::Given && !given_too))
       continue;
-    const float nx = arrays.nx[i], ny = arrays.ny[i], nz = arrays.nz[i];
+    const Eigen::Vector3f n = normalAt(static_cast<std::uint32_t>(i));
     const Vec3 to_sensor{static_cast<double>(viewpoint.x()) - arrays.x[i],
                          static_cast<double>(viewpoint.y()) - arrays.y[i],
                          static_cast<double>(viewpoint.z()) - arrays.z[i]};
-    if (dot(to_sensor, {nx, ny, nz}) < 0)
-      grid_.setNormal(i, -nx, -ny, -nz);
+    if (dot(to_sensor, {n.x(), n.y(), n.z()}) < 0)
+      turnNormal(static_cast<std::uint32_t>(i));
   }
+}
+
+std::vector<std::uint32_t>
+FeatureStages::computedNormals() const
+{
+  std::vector<std::uint32_t> keypoints;
+  for (std::size_t i = 0; i < grid_.size(); ++i)
+    if (normal_sources_[i] == NormalSource::Computed)
+      keypoints.push_back(static_cast<std::uint32_t>(i));
+  return keypoints;
+}
+
+Eigen::Vector3f
+FeatureStages::pointAt(std::uint32_t keypoint) const
+{
+  const SurfaceArrays arrays = grid_.arrays();
+  return {arrays.x[keypoint], arrays.y[keypoint], arrays.z[keypoint]};
+}
+
+Eigen::Vector3f
+FeatureStages::normalAt(std::uint32_t keypoint) const
+{
+  const SurfaceArrays arrays = grid_.arrays();
+  return {arrays.nx[keypoint], arrays.ny[keypoint], arrays.nz[keypoint]};
+}
+
+void
+FeatureStages::turnNormal(std::uint32_t keypoint)
+{
+  const Eigen::Vector3f normal = normalAt(keypoint);
+  grid_.setNormal(keypoint, -normal.x(), -normal.y(), -normal.z());
 }
 
 Visibility
