@@ -93,7 +93,7 @@ constexpr CloudWeights ONE_VIEWPOINT{-3.54, 0, 0, 1.96, 1.19, 0.97, 2.03, -5.66}
 constexpr CloudWeights SIDES{-2.48, 1.43, -0.86, 2.48, 0, 1.33, 0, -4.51};
 constexpr CloudWeights NOTHING{-6.65, 0, 0, 2.57, 2.08, 0.76, 1.55, -5.23};
 
-constexpr CloudWeights IN_MAP{-5.73, 1.23, -2.00, 0.55, 1.95, 0.97, 0.99, 0};
+constexpr CloudWeights IN_MAP{-11.30, 1.06, -1.73, 1.29, 2.11, 0, 0, 0};
 
 const CloudWeights&
 weightsFor(const Evidence& e)

@@ -90,7 +90,8 @@ checkedHeader(std::string_view bytes, std::string_view magic, std::uint32_t vers
     throw ArchiveError("is incomplete or damaged: it has " +
                        std::to_string(bytes.size()) + " bytes, its header says " +
                        std::to_string(header.size));
-  if (header.sections > bytes.size() / ROW ||
+  if (header.reserved[0] != 0 || header.reserved[1] != 0 ||
+      header.sections > bytes.size() / ROW ||
       arraysAt(header.sections) > bytes.size() ||
       header.table_checksum != checksumOf(bytes.data() + sizeof(Header),
                                           arraysAt(header.sections) - sizeof(Header)))

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) the pcl_flashreg authors
+"""Looks for every n-th fragment of each scene in the map of all its others, and says how many
+were found. Maps are the unions of fragments, placed by chained poses of the list, points alone;
+with --beside, those of all scenes side by side, and with --foreign those of the other scenes,
+where nothing is to be found. pcl_flashreg_localize must be on the PATH. Needs numpy.
+
+    scripts/localize_scenes.py DATA/pairs.tsv OUT --dataset 3DMatch --every 3
+"""
+
+import argparse
+import json
+import os
+import statistics
+import subprocess
+
+import numpy as np
+
+from pcd_files import read_pcd, write_pcd
+from scans_against_maps import chain, read_pairs, thinned
+
+LEAF = 0.05
+MAX_DEGREES, MAX_METRES = 15, 0.3  # of a right pose
+APART = 25.0  # metres between scenes that stand side by side
+
+
+def is_right(found, true):
+    turn = found[:3, :3].T @ true[:3, :3]
+    cosine = np.clip((np.trace(turn) - 1) / 2, -1, 1)
+    shift = np.linalg.norm(found[:3, 3] - true[:3, 3])
+    return np.degrees(np.arccos(cosine)) < MAX_DEGREES and shift < MAX_METRES
+
+
+def locate(points, scans, out, options):
+    """The program's lines for scans in a map of these points."""
+    path = os.path.join(out, "map.pcd")
+    write_pcd(path, thinned(points))
+    command = ["pcl_flashreg_localize", path, "--leaf", str(LEAF), "--quiet"]
+    run = subprocess.run(command + options + scans, stdout=subprocess.PIPE, text=True)
+    if run.returncode > 1:
+        raise SystemExit("%s: exit code %d" % (" ".join(command), run.returncode))
+    return [json.loads(line) for line in run.stdout.splitlines()]
+
+
+class Score:
+    def __init__(self):
+        self.all = self.right = self.trusted = self.wrong = 0
+        self.times = []
+
+    def add(self, line, true):
+        right = true is not None and "transformation" in line
+        right = right and is_right(np.array(line["transformation"]), true)
+        self.all += 1
+        self.right += right
+        self.trusted += line["converged"] and right
+        self.wrong += line["converged"] and not right
+        self.times.append(line["timings_ms"]["placing"])
+
+    def row(self, name):
+        times = sorted(self.times)
+        return "| %s | %d | %.1f %% | %d | %d | %.0f | %.0f |" % (
+            name,
+            self.all,
+            100 * self.right / self.all,
+            self.trusted,
+            self.wrong,
+            statistics.median(times),
+            times[int(0.95 * len(times))],
+        )
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("pairs", help="list of pairs with known poses")
+    parser.add_argument("out", help="folder for the maps")
+    parser.add_argument("--dataset", nargs="+", required=True, help="pairs to chain")
+    parser.add_argument("--every", type=int, default=1, help="only every n-th fragment")
+    parser.add_argument("--beside", action="store_true", help="one map of all scenes")
+    parser.add_argument("--foreign", action="store_true", help="maps of other scenes")
+    parser.add_argument("--no-viewpoint", action="store_true", help="nor the fragments'")
+    options = parser.parse_args()
+    flags = ["--no-viewpoint"] if options.no_viewpoint else []
+    root = os.path.abspath(os.path.dirname(options.pairs))
+    os.makedirs(options.out, exist_ok=True)
+    scenes = {}
+    for number, (scene, pairs) in enumerate(
+        sorted(read_pairs(options.pairs, options.dataset).items())
+    ):
+        poses = chain(pairs)
+        if options.beside:
+            for pose in poses.values():
+                pose[0, 3] += APART * number
+        scenes[scene] = poses
+    placed = {
+        path: read_pcd(os.path.join(root, path)) @ T[:3, :3].T + T[:3, 3]
+        for poses in scenes.values()
+        for path, T in poses.items()
+    }
+    print("| scene | fragments | right | of these trusted | trusted and wrong | median ms | 95 % |")
+    print("|---|---|---|---|---|---|---|")
+    total = Score()
+    for scene, poses in scenes.items():
+        score = Score()
+        chosen = list(poses)[:: options.every]
+        if options.foreign:
+            for other, others in scenes.items():
+                if other != scene:
+                    points = np.vstack([placed[path] for path in others])
+                    scans = [os.path.join(root, path) for path in chosen]
+                    for line in locate(points, scans, options.out, flags):
+                        for sum_up in (score, total):
+                            sum_up.add(line, None)
+        else:
+            in_map = placed if options.beside else poses
+            for path in chosen:
+                points = np.vstack([placed[other] for other in in_map if other != path])
+                for line in locate(points, [os.path.join(root, path)], options.out, flags):
+                    for sum_up in (score, total):
+                        sum_up.add(line, poses[path])
+        print(score.row(os.path.basename(scene)), flush=True)
+    print(total.row("all"))
+
+
+if __name__ == "__main__":
+    main()
