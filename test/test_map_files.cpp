@@ -4,9 +4,9 @@
 // What pcl_flashreg_map reads and writes, by itself.
 
 #include "io/error.h"
+#include "io/pose_io.h"
 #include "map/graph.h"
-#include "map/natural_order.h"
-#include "map/poses.h"
+#include "program/natural_order.h"
 #include "map/relation_row.h"
 #include "support/made_correspondences.h"
 
@@ -139,12 +139,12 @@ TEST(Poses, quaternionsHaveAPositiveRealPart)
 {
   for (std::uint64_t seed = 1; seed < 40; ++seed) {
     const RigidTransform pose = somePose(seed);
-    const Eigen::Quaterniond q = quaternionOf(pose);
+    const Eigen::Quaterniond q = io::quaternionOf(pose);
     EXPECT_GE(q.w(), 0);
     EXPECT_TRUE(q.toRotationMatrix().isApprox(pose.rotation, 1e-12));
   }
-  EXPECT_EQ(numberText(-0.0), "0");
-  EXPECT_EQ(numberText(0.1), "0.1");
+  EXPECT_EQ(io::numberText(-0.0), "0");
+  EXPECT_EQ(io::numberText(0.1), "0.1");
 }
 
 } // namespace
