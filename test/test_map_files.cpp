@@ -38,11 +38,11 @@ TEST(NaturalOrder, countsNumbersAsNumbers)
                                         "scan_10_10",
                                         "scan_a"};
   // "1" and "01" count as much: the text decides.
-  EXPECT_TRUE(naturallyBefore("01", "1"));
+  EXPECT_TRUE(program::naturallyBefore("01", "1"));
   for (std::size_t i = 0; i < sorted.size(); ++i)
     for (std::size_t j = 0; j < sorted.size(); ++j) {
       const bool swapped = (i == 1 && j == 2) || (i == 2 && j == 1);
-      EXPECT_EQ(naturallyBefore(sorted[i], sorted[j]), swapped ? j < i : i < j)
+      EXPECT_EQ(program::naturallyBefore(sorted[i], sorted[j]), swapped ? j < i : i < j)
           << sorted[i] << ' ' << sorted[j];
     }
 }

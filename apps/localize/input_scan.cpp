@@ -65,10 +65,11 @@ requireKeypoints(const std::string& path, const Scan& scan, double spacing)
     return;
   const std::string left =
       scan.empty() ? "no point" : "only " + std::to_string(scan.size()) + " points";
-  throw InputError(path + ": the voxel grid of " + detail::toText(spacing) +
-                   " leaves " + left +
-                   " that can be described, while a trusted pose takes " +
-                   std::to_string(NEEDED) + " (--leaf sets another)");
+  throw InputError(
+      path + ": the voxel grid of " + detail::toText(spacing) + " leaves " + left +
+      " that can be described, while a trusted pose takes " + std::to_string(NEEDED) +
+      " (--leaf sets another; are map and scans in the same "
+      "unit?)");
 }
 
 double
@@ -98,11 +99,14 @@ Scan
 loadScan(const std::string& path)
 {
   try {
-    return Scan::load(path);
+    const Scan scan = Scan::load(path);
+    if (scan.features().dimension > 0)
+      return scan;
   }
   catch (const ScanFileError& error) {
     throw InputError(error.what());
   }
+  throw InputError(path + ": was saved without descriptors, and can't be matched");
 }
 
 InputScan

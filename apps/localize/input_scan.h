@@ -30,7 +30,7 @@ struct InputScan {
 /** \brief The first bytes of a file say what it is. */
 enum class FileKind { Cloud, Scan, Index };
 
-/** \throws io::InputError if it can't be read */
+/** \brief Of what is no file, FileKind::Cloud, whose readers say so. */
 FileKind
 kindOf(const std::string& path);
 

@@ -61,7 +61,8 @@ public:
     }
     if (!options_.index.empty() && fs::exists(options_.index) && isUsable())
       return opened(options_.index);
-    return kind == FileKind::Scan ? made(savedScan()) : made(scanAt(resolution));
+    const detail::Stopwatch watch;
+    return made(kind == FileKind::Scan ? savedScan() : scanAt(resolution), watch);
   }
 
 private:
@@ -147,22 +148,27 @@ private:
   }
 
   ScanIndex
-  made(const Scan& scan) const
+  made(const Scan& scan, const detail::Stopwatch& watch) const
   {
     messages_.say("making the index");
-    const detail::Stopwatch watch;
     const ScanIndex index = registration_.makeIndex(scan);
     messages_.note(options_.map + ": index made in " +
-                   rounded(watch.milliseconds() / 1000, 2) + " s: " + sizesOf(index));
-    if (options_.index.empty())
-      return index;
+                   rounded(watch.milliseconds() / 1000, 2) + " s: " + sizesOf(index) +
+                   (options_.index.empty() ? "" : "; kept in " + options_.index));
+    if (!options_.index.empty())
+      keep(index);
+    return index;
+  }
+
+  void
+  keep(const ScanIndex& index) const
+  {
     // Never a stamp that is another index's, wherever this ends.
     fs::remove(stampPathOf(options_.index));
     index.save(options_.index);
-    writeStamp(
-        stampOf(options_.map, options_.index, scan.spacing(), options_.bin_fields),
-        options_.index);
-    return index;
+    const IndexStamp stamp = stampOf(
+        options_.map, options_.index, index.scan().spacing(), options_.bin_fields);
+    writeStamp(stamp, options_.index);
   }
 
   const Options& options_;
