@@ -21,7 +21,7 @@ endif()
 # The programs find a shared core from wherever the prefix is.
 file(RELATIVE_PATH libraries_from_programs
   /prefix/${CMAKE_INSTALL_BINDIR} /prefix/${CMAKE_INSTALL_LIBDIR})
-foreach(program pcl_flashreg_align pcl_flashreg_evaluate pcl_flashreg_map)
+foreach(program pcl_flashreg_align pcl_flashreg_evaluate pcl_flashreg_localize pcl_flashreg_map)
   if(TARGET ${program} AND BUILD_SHARED_LIBS)
     set_target_properties(${program} PROPERTIES
       INSTALL_RPATH "\$ORIGIN/${libraries_from_programs}")

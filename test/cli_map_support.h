@@ -6,7 +6,7 @@
 // What the tests of pcl_flashreg_map share: scans of a made room in a folder of their own,
 // and the program on them.
 
-#include "io/cloud_io.h"
+#include "cli_clouds.h"
 #include "support/made_room.h"
 #include "support/program.h"
 
@@ -25,24 +25,6 @@ struct MadeScan {
   io::Cloud cloud;
   Eigen::Isometry3d T_room_scan = Eigen::Isometry3d::Identity();
 };
-
-inline io::Cloud
-cloudOf(const std::vector<Eigen::Vector3d>& points)
-{
-  io::Cloud cloud;
-  for (const char* name : {"x", "y", "z", "intensity"})
-    cloud.addField(name, io::ScalarType::Float32);
-  cloud.width = points.size();
-  cloud.data.resize(cloud.size() * cloud.point_size);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      io::storeValue(cloud.point(i),
-                     cloud.fields[axis],
-                     points[i][static_cast<Eigen::Index>(axis)]);
-    io::storeValue(cloud.point(i), cloud.fields[3], static_cast<double>(i % 100));
-  }
-  return cloud;
-}
 
 /** \brief Of eight scans around the room each sees two thirds of it. */
 inline MadeScan
@@ -92,11 +74,7 @@ protected:
   void
   writeBlob(const std::string& name) const
   {
-    made::Random random(5);
-    std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < 3000; ++i)
-      points.emplace_back(random.normal(), random.normal(), random.normal());
-    io::writeCloud(path(name), cloudOf(points));
+    io::writeCloud(path(name), cloudOf(blobPoints()));
   }
 
   void

@@ -4,9 +4,9 @@
 // What pcl_flashreg_map reads and writes, by itself.
 
 #include "io/error.h"
+#include "io/pose_io.h"
 #include "map/graph.h"
-#include "map/natural_order.h"
-#include "map/poses.h"
+#include "program/natural_order.h"
 #include "map/relation_row.h"
 #include "support/made_correspondences.h"
 
@@ -38,11 +38,11 @@ TEST(NaturalOrder, countsNumbersAsNumbers)
                                         "scan_10_10",
                                         "scan_a"};
   // "1" and "01" count as much: the text decides.
-  EXPECT_TRUE(naturallyBefore("01", "1"));
+  EXPECT_TRUE(program::naturallyBefore("01", "1"));
   for (std::size_t i = 0; i < sorted.size(); ++i)
     for (std::size_t j = 0; j < sorted.size(); ++j) {
       const bool swapped = (i == 1 && j == 2) || (i == 2 && j == 1);
-      EXPECT_EQ(naturallyBefore(sorted[i], sorted[j]), swapped ? j < i : i < j)
+      EXPECT_EQ(program::naturallyBefore(sorted[i], sorted[j]), swapped ? j < i : i < j)
           << sorted[i] << ' ' << sorted[j];
     }
 }
@@ -139,12 +139,12 @@ TEST(Poses, quaternionsHaveAPositiveRealPart)
 {
   for (std::uint64_t seed = 1; seed < 40; ++seed) {
     const RigidTransform pose = somePose(seed);
-    const Eigen::Quaterniond q = quaternionOf(pose);
+    const Eigen::Quaterniond q = io::quaternionOf(pose);
     EXPECT_GE(q.w(), 0);
     EXPECT_TRUE(q.toRotationMatrix().isApprox(pose.rotation, 1e-12));
   }
-  EXPECT_EQ(numberText(-0.0), "0");
-  EXPECT_EQ(numberText(0.1), "0.1");
+  EXPECT_EQ(io::numberText(-0.0), "0");
+  EXPECT_EQ(io::numberText(0.1), "0.1");
 }
 
 } // namespace

@@ -3,22 +3,15 @@
 
 #include "doubts.h"
 
-#include <pcl_flashreg/impl/number_text.hpp>
+#include "../program/pair_text.h"
 
-#include <Eigen/Eigenvalues>
+#include <pcl_flashreg/impl/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace pcl_flashreg::align {
 namespace {
-
-std::string
-vectorOf(const Eigen::Vector3d& v)
-{
-  return "(" + detail::toText(v.x()) + " " + detail::toText(v.y()) + " " +
-         detail::toText(v.z()) + ")";
-}
 
 std::string
 leftOut(std::size_t count)
@@ -34,8 +27,8 @@ noteLeftOut(const std::string& path,
 {
   if (left_out.repeated > 0)
     messages.note(path + ": " + leftOut(left_out.repeated) +
-                  "in one place, most of them at " + vectorOf(left_out.place) +
-                  ": beams without a return?");
+                  "in one place, most of them at " +
+                  program::vectorText(left_out.place) + ": beams without a return?");
   if (left_out.stray > 0)
     messages.note(path + ": " + leftOut(left_out.stray) +
                   "beyond all others by orders of magnitude");
@@ -47,44 +40,18 @@ noteViewpoint(const InputCloud& cloud,
               bool stated,
               const Messages& messages)
 {
-  if (!stated || scan.empty() || scan.viewpointSource() == ViewpointSource::Stated)
-    return;
-  const Eigen::Vector3d place(cloud.cloud.viewpoint.data());
-  const std::string not_seen =
-      cloud.path + ": its points were not seen from its viewpoint, " + vectorOf(place);
-  if (scan.viewpointSource() == ViewpointSource::Points)
-    messages.note(not_seen + ", but from about " + vectorOf(*scan.viewpoint()) +
-                  ", by how they lie: that is used");
-  else
-    messages.note(not_seen + ", nor from any one place: none is used");
-}
-
-/** \brief Smallest, middle and largest standard deviation of the keypoints along their
- * principal axes. */
-Eigen::Vector3d
-spreadOf(const Scan& scan)
-{
-  const Eigen::Map<const Eigen::Matrix3Xf> points(
-      scan.points(), 3, static_cast<Eigen::Index>(scan.size()));
-  const Eigen::Matrix3Xd offsets =
-      points.cast<double>().colwise() - points.cast<double>().rowwise().mean();
-  const Eigen::Matrix3d covariance =
-      offsets * offsets.transpose() / static_cast<double>(scan.size());
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance,
-                                                        Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .cwiseMax(0.0)
-      .cwiseSqrt();
+  const std::string doubt =
+      program::viewpointDoubt(scan, Eigen::Vector3d(cloud.cloud.viewpoint.data()));
+  if (stated && !doubt.empty())
+    messages.note(cloud.path + ": " + doubt);
 }
 
 void
 noteFlatness(const std::string& path, const Scan& scan, const Messages& messages)
 {
-  constexpr double FLAT = 0.05;
-  if (!scan.empty() && spreadOf(scan)[0] < FLAT * scan.spacing())
-    messages.note(path +
-                  ": is flat: all its points lie in one plane, in which they can "
-                  "slide and turn; such clouds hold no pose in space");
+  const std::string doubt = program::flatnessDoubt(scan);
+  if (!doubt.empty())
+    messages.note(path + ": " + doubt);
 }
 
 /** \brief Factors between units that people mix up: feet and metres, inches and

@@ -4,6 +4,7 @@
 #include "option_groups.h"
 
 #include "../io/raw_bin.h"
+#include "../program/backend_option.h"
 #include "../program/help_text.h"
 
 namespace pcl_flashreg::align {
@@ -15,9 +16,6 @@ const std::map<std::string, SecondOrder> kSecondOrders = {
 const std::map<std::string, ScoreMetric> kScores = {{"inliers", ScoreMetric::Inliers},
                                                     {"mae", ScoreMetric::Mae},
                                                     {"mse", ScoreMetric::Mse}};
-const std::map<std::string, BackendKind> kBackends = {{"auto", BackendKind::Auto},
-                                                      {"cpu", BackendKind::Cpu},
-                                                      {"cuda", BackendKind::Cuda}};
 
 namespace {
 
@@ -145,10 +143,7 @@ addPipeline(CLI::App& app, Options& options, Words& words)
       ->group(group);
   program::addMotion(app, group, words.motion);
   program::addGravityOfEach(app, group, words.motion);
-  app.add_option("--backend", words.backend, wrapped("auto, cpu or cuda"))
-      ->capture_default_str()
-      ->check(CLI::IsMember(keysOf(kBackends)).description(""))
-      ->group(group);
+  program::addBackend(app, group, words.backend);
   app.add_option("--threads", options.threads, wrapped("CPU threads; 0 for all"))
       ->capture_default_str()
       ->group(group);

@@ -24,10 +24,9 @@ struct Words {
   program::MotionWords motion;
 };
 
-/** \brief The values that --second-order, --score and --backend take. */
+/** \brief The values that --second-order and --score take. */
 extern const std::map<std::string, SecondOrder> kSecondOrders;
 extern const std::map<std::string, ScoreMetric> kScores;
-extern const std::map<std::string, BackendKind> kBackends;
 
 /** \brief Declares all options and positionals, with their help. */
 void

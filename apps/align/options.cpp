@@ -4,6 +4,7 @@
 #include "options.h"
 
 #include "../io/cloud_io.h"
+#include "../program/backend_option.h"
 #include "../program/command_line.h"
 #include "../program/output_paths.h"
 #include "option_groups.h"
@@ -57,7 +58,7 @@ takeWords(const Words& words, Options& options)
 {
   options.parameters.second_order = kSecondOrders.at(words.second_order);
   options.parameters.score_metric = kScores.at(words.score);
-  options.backend = kBackends.at(words.backend);
+  options.backend = program::BACKENDS.at(words.backend);
   program::takeMotion(words.motion, options.parameters);
   const std::string& unknown = words.no_viewpoint;
   options.source_viewpoint_known = unknown.empty() || unknown == "target";

@@ -27,11 +27,7 @@ scanInput(const std::optional<InputCloud>& cloud,
 {
   if (!cloud)
     return {};
-  ScanInput<double> input = io::scanInput(cloud->cloud, cloud->xyz);
-  input.viewpoint_known = viewpoint_known;
-  // Then what the file says is nobody's wish either: the points tell where to turn normals.
-  if (!viewpoint_known)
-    input.viewpoint.setZero();
+  ScanInput<double> input = io::scanInput(cloud->cloud, cloud->xyz, viewpoint_known);
   if (features)
     input.features = {features->values.data(),
                       features->values.size() / features->dimension,

@@ -3,6 +3,7 @@
 
 #include "report.h"
 
+#include "../program/pair_text.h"
 #include "../program/rounded.h"
 
 #include <pcl_flashreg/impl/number_text.hpp>
@@ -97,26 +98,6 @@ formatFreeMotions(const Result& result)
   return text;
 }
 
-/** \brief What a pose lacks that every pose needs; empty if that is not known. */
-std::string
-formatWant(const Evidence& evidence)
-{
-  // Where the confidence is at most an even chance (docs/method.md).
-  constexpr double MIRRORED = 1.2, SOFT = 0.004, LOOSE = 0.2, RIVALS = 1, NARROW = 1;
-  if (evidence.mirrored > MIRRORED)
-    return "a mirror image explains the correspondences better: is an axis flipped?";
-  if (evidence.tilted > RIVALS)
-    return "a pose that gravity forbids explains more: is its direction right?";
-  if (evidence.has_clouds) {
-    if (evidence.stiffness < SOFT || evidence.hold < LOOSE)
-      return "the clouds match as well where it is moved off";
-    return evidence.rivals > RIVALS ? "other poses explain the clouds as well" : "";
-  }
-  if (evidence.breadth < NARROW)
-    return "those that agree lie on a line, about which it may turn";
-  return evidence.log_chance > 0 ? "as many would agree by chance" : "";
-}
-
 } // namespace
 
 std::string
@@ -133,7 +114,7 @@ formatVerdict(const Outcome& outcome)
   evidence += ", confidence " + rounded(result.confidence, 2);
   if (result.converged)
     return "pose found and trusted: " + evidence;
-  const std::string want = formatWant(result.evidence);
+  const std::string want = program::wantOf(result.evidence);
   return "pose found, but NOT trusted: " + evidence +
          " (needed: " + rounded(outcome.pair.parameters.min_confidence, 2) + ")" +
          (want.empty() ? "" : "; " + want);

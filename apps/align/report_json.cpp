@@ -3,6 +3,7 @@
 
 #include "../program/json.h"
 #include "../program/motion_options.h"
+#include "../program/pair_json.h"
 #include "report.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -13,21 +14,6 @@ namespace pcl_flashreg::align {
 namespace {
 
 using program::Json, program::rowsOf;
-
-const char*
-nameOf(Status status)
-{
-  switch (status) {
-  case Status::Ok:
-    return "ok";
-  case Status::TooFewCorrespondences:
-    return "too_few_correspondences";
-  case Status::NoClique:
-    return "no_clique";
-  default:
-    return "degenerate";
-  }
-}
 
 Json
 timingsOf(const Outcome& outcome)
@@ -48,58 +34,11 @@ timingsOf(const Outcome& outcome)
 }
 
 Json
-evidenceOf(const Evidence& evidence)
-{
-  Json json = {{"inliers", evidence.inliers},
-               {"inlier_ratio", evidence.inlier_ratio},
-               {"rival_inliers", evidence.rival_inliers},
-               {"thickness", evidence.thickness},
-               {"breadth", evidence.breadth},
-               {"log_chance", evidence.log_chance},
-               {"mirrored", evidence.mirrored},
-               {"tilted", evidence.tilted}};
-  if (evidence.has_clouds) {
-    json["viewpoints"] = evidence.has_viewpoints;
-    json["one_viewpoint"] = evidence.one_viewpoint;
-    json["overruled_viewpoints"] = evidence.overruled_viewpoints;
-    json["sides"] = evidence.has_sides;
-    json["overruled_sides"] = evidence.overruled_sides;
-    json["in_map"] = evidence.in_map;
-    json["second_look"] = evidence.second_look;
-    json["matched"] = evidence.agreement.matched;
-    json["contradicted"] = evidence.agreement.contradicted;
-    json["residual"] = evidence.agreement.residual;
-    json["lead"] = evidence.lead;
-    json["rivals"] = evidence.rivals;
-    json["hold"] = evidence.hold;
-    json["stiffness"] = evidence.stiffness;
-  }
-  return json;
-}
-
-Json
 hypothesesOf(const Result& result)
 {
   Json list = Json::array();
   for (const Hypothesis& hypothesis : result.hypotheses)
-    list.push_back(
-        {{"transformation", rowsOf(hypothesis.T_target_source.toMatrix<double>())},
-         {"inliers", hypothesis.inlier_count},
-         {"score", hypothesis.score}});
-  return list;
-}
-
-/** \brief Lengths in the unit of the clouds, turns in radians. */
-Json
-freeMotionsOf(const Result& result)
-{
-  Json list = Json::array();
-  for (const FreeMotion& motion : result.free_motions)
-    list.push_back({{"kind", motion.kind == FreeMotion::Kind::Turn ? "turn" : "slide"},
-                    {"direction", rowsOf(motion.direction.transpose())[0]},
-                    {"point", rowsOf(motion.point.transpose())[0]},
-                    {"backward", motion.backward},
-                    {"forward", motion.forward}});
+    list.push_back(program::hypothesisOf(hypothesis));
   return list;
 }
 
@@ -148,7 +87,7 @@ formatJson(const Options& options, const Outcome& outcome)
   json["target"] = options.target;
   json["converged"] = result.converged;
   json["confidence"] = result.confidence;
-  json["status"] = nameOf(result.status);
+  json["status"] = program::nameOf(result.status);
   json["transformation"] = rowsOf(result.T_target_source.toMatrix<double>());
   json["inliers"] = result.inliers.size();
   json["correspondences"] = outcome.pair.correspondences;
@@ -156,7 +95,7 @@ formatJson(const Options& options, const Outcome& outcome)
   json["correspondences_invalid"] = result.correspondences_invalid;
   json["score"] = result.score;
   json["distinctness"] = result.distinctness;
-  json["evidence"] = evidenceOf(result.evidence);
+  json["evidence"] = program::evidenceOf(result.evidence);
   json["resolution"] =
       outcome.pair.resolution != 0 ? Json(outcome.pair.resolution) : Json();
   json["seen_from"] = {{"source", seenFrom(outcome.pair.source)},
@@ -168,7 +107,7 @@ formatJson(const Options& options, const Outcome& outcome)
   json["second_order"] =
       result.second_order == SecondOrder::Exact ? "exact" : "bounded";
   json["hypotheses"] = hypothesesOf(result);
-  json["free_motions"] = freeMotionsOf(result);
+  json["free_motions"] = program::freeMotionsOf(result);
   json["information"] = rowsOf(result.information);
   json["timings_ms"] = timingsOf(outcome);
   return program::textOf(json);

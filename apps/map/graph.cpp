@@ -3,7 +3,7 @@
 
 #include "graph.h"
 
-#include "poses.h"
+#include "../io/pose_io.h"
 
 namespace pcl_flashreg::map {
 namespace {
@@ -20,7 +20,7 @@ std::string
 poseText(const RigidTransform& pose)
 {
   std::string text;
-  for (const std::string& cell : poseCells(pose))
+  for (const std::string& cell : io::poseCells(pose))
     text += ' ' + cell;
   return text;
 }
@@ -39,7 +39,7 @@ edgeText(const MapEdge& edge)
   const InformationMatrix information = informationForG2o(edge);
   for (int row = 0; row < 6; ++row)
     for (int column = row; column < 6; ++column)
-      text += ' ' + numberText(information(row, column));
+      text += ' ' + io::numberText(information(row, column));
   return text + '\n';
 }
 

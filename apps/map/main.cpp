@@ -10,7 +10,7 @@
 #include "outputs.h"
 #include "relations.h"
 #include "report.h"
-#include "scan_files.h"
+#include "../program/scan_files.h"
 #include "scan_reader.h"
 #include "scan_store.h"
 
@@ -144,7 +144,7 @@ run(Options options, const batch::Ranks& ranks)
     throw UsageError(
         "several ranks need an output, or --pairs, in a folder that all of "
         "them see, and no --shard");
-  const std::vector<ScanFile> files = findScans(options.scans, options.list);
+  const std::vector<ScanFile> files = program::findScans(options.scans, options.list);
   checkOutputs(options, files);
   checkPairsFile(options);
   return MapMaker(options, ranks).make(files);

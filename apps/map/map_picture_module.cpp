@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) the pcl_flashreg authors
 
+#include "../drawing/labels.h"
 #include "../drawing/picture.h"
 #include "density.h"
 #include "groups.h"
@@ -8,8 +9,6 @@
 #include "map_view.h"
 #include "scan_colors.h"
 #include "short_names.h"
-
-#include <pcl_flashreg/impl/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -133,69 +132,24 @@ drawEdges(Picture& picture, const Panel& panel, const MultiviewResult& result)
                      0.35 * std::clamp(few, 0.15, 1.0));
 }
 
-/** \brief Dots where the scans are, and what they are called, unless that would cover what
- * is written already. */
+/** \brief Dots where the scans are, and what they are called. */
 void
 drawLabels(Picture& picture,
            const Panel& panel,
            const std::vector<std::string>& labels,
            const std::vector<Color>& colors)
 {
+  std::vector<drawing::Label> written;
   for (const FlatScan& scan : panel.group.scans) {
     const Eigen::Vector2d at = panel.pixelOf(scan.place);
-    picture.drawLine(at, at, 9, PAPER);
-    picture.drawLine(at, at, 6, colors[scan.scan]);
+    drawing::drawDot(picture, at, colors[scan.scan], PAPER);
+    written.push_back({labels[scan.scan], at});
   }
-  std::vector<Eigen::AlignedBox2d> written;
-  for (const FlatScan& scan : panel.group.scans) {
-    const Eigen::Vector2d at = panel.pixelOf(scan.place);
-    const double width = picture.widthOf(labels[scan.scan], LABEL);
-    // To the right and to the left, above and below.
-    for (const Eigen::Vector2d& from :
-         {Eigen::Vector2d(7, 0.35 * LABEL),
-          Eigen::Vector2d(-7 - width, 0.35 * LABEL),
-          Eigen::Vector2d(-0.5 * width, -8),
-          Eigen::Vector2d(-0.5 * width, 8 + 0.8 * LABEL)}) {
-      const Eigen::Vector2d start = at + from;
-      const Eigen::AlignedBox2d box(start - Eigen::Vector2d(2, 0.85 * LABEL),
-                                    start + Eigen::Vector2d(width + 2, 0.2 * LABEL));
-      const bool covers =
-          std::any_of(written.begin(), written.end(), [&](const auto& other) {
-            return box.intersects(other);
-          });
-      if (covers || start.x() < panel.left ||
-          start.x() + width > panel.left + panel.scale.width)
-        continue;
-      picture.write(labels[scan.scan], start.x(), start.y(), LABEL, INK, PAPER);
-      written.push_back(box);
-      break;
-    }
-  }
-}
-
-/** \brief 1, 2 or 5 times a power of ten. */
-double
-roundLength(double length)
-{
-  const double ten = std::pow(10, std::floor(std::log10(length)));
-  const double times = length / ten;
-  return ten * (times >= 5 ? 5 : times >= 2 ? 2 : 1);
-}
-
-void
-drawScaleBar(Picture& picture, double pixels_per_unit, int width, double y)
-{
-  const double length = roundLength(0.25 * width / pixels_per_unit);
-  const Eigen::Vector2d from(MARGIN, y), to(MARGIN + length * pixels_per_unit, y);
-  picture.drawLine(from, to, 3, INK);
-  for (const Eigen::Vector2d& end : {from, to})
-    picture.drawLine(end - Eigen::Vector2d(0, 5), end + Eigen::Vector2d(0, 5), 3, INK);
-  picture.write(detail::toText(length) + (length == 1 ? " unit" : " units"),
-                to.x() + 12,
-                y + 0.35 * LABEL,
-                LABEL,
-                INK,
-                PAPER);
+  drawing::writeLabels(picture,
+                       written,
+                       panel.left,
+                       panel.left + panel.scale.width,
+                       {LABEL, INK, PAPER});
 }
 
 std::string
@@ -239,7 +193,11 @@ draw(const MapDrawing& drawing)
   }
   const double bottom = height - 0.5 * FOOT;
   if (!panels.empty())
-    drawScaleBar(picture, panels.front().scale.pixels_per_unit, width, bottom);
+    drawing::drawScaleBar(picture,
+                          panels.front().scale.pixels_per_unit,
+                          {MARGIN, bottom},
+                          0.25 * width,
+                          {LABEL, INK, PAPER});
   const std::string caption = captionOf(drawing.result, panels.size());
   picture.write(caption,
                 width - MARGIN - picture.widthOf(caption, LABEL),

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "groups.h"
-#include "scan_files.h"
+#include "../program/scan_files.h"
 
 #include <pcl_flashreg/multiview_registration.h>
 
@@ -13,6 +13,8 @@
 #include <vector>
 
 namespace pcl_flashreg::map {
+
+using program::ScanFile;
 
 /** \brief A file that is no part of the map, and why. */
 struct LeftOutFile {

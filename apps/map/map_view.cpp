@@ -227,6 +227,8 @@ seenFromAbove(const std::vector<std::size_t>& members,
   view.row(1) = up.cross(Eigen::Vector3d(view.row(0)));
   const double angle = angleOfSmallestBox(view.cast<float>() * thinned(points, 20000));
   view = (Eigen::Rotation2Dd(angle).matrix() * view).eval();
+  group.view = view;
+  group.origin = solid.origin;
 
   group.box = boxOf(view.cast<float>() * points, 0);
   const Eigen::Vector2d around = 0.25 * group.box.sizes();

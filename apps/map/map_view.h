@@ -30,6 +30,9 @@ struct FlatGroup {
   Eigen::AlignedBox2d box;
   /** \brief Distance of neighbouring points of a scan; the coarsest. */
   double spacing = 0;
+  /** \brief A point of the group's frame lies at view * (point - origin). */
+  Eigen::Matrix<double, 2, 3> view = Eigen::Matrix<double, 2, 3>::Identity();
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   /** \brief How many points of a scan each one that is here stands for, >= 1. */
   double weight = 1;
 };

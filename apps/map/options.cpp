@@ -113,7 +113,7 @@ addOutputs(CLI::App& app, Options& options, Words& words)
       "(everything). The first two have a file a map");
   app.add_option("--format", words.format, wrapped("Of --poses, whatever its name"))
       ->type_name("tum|kitti|csv|json")
-      ->check(CLI::IsMember(POSE_FORMATS).description(""))
+      ->check(CLI::IsMember(program::POSE_FORMATS).description(""))
       ->group(group);
   add_file("--graph",
            options.graph,
@@ -320,9 +320,9 @@ parseOptions(int argc, char** argv)
   if (!words.shard.empty())
     options.shard = batch::parseShard(words.shard);
   if (!words.format.empty())
-    options.pose_format = POSE_FORMATS.at(words.format);
+    options.pose_format = program::POSE_FORMATS.at(words.format);
   else if (!options.poses.empty())
-    options.pose_format = poseFormatOf(options.poses);
+    options.pose_format = program::poseFormatOf(options.poses);
   if (options.pairs.empty())
     options.pairs = defaultPairs(options);
   check(options);

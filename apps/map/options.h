@@ -5,7 +5,7 @@
 
 #include "../batch/shard.h"
 #include "../program/program.h"
-#include "pose_format.h"
+#include "../program/pose_format.h"
 
 #include <pcl_flashreg/multiview_registration.h>
 
@@ -16,6 +16,7 @@
 
 namespace pcl_flashreg::map {
 
+using program::PoseFormat;
 using program::UsageError;
 
 /** \brief The command line of pcl_flashreg_map; an empty path is one not given. */

@@ -24,7 +24,7 @@ using program::Messages;
 bool
 isPosesFileOfOneMap(const Options& options)
 {
-  return !options.poses.empty() && isOfOneGroup(options.pose_format);
+  return !options.poses.empty() && program::isOfOneGroup(options.pose_format);
 }
 
 /** \brief Outputs of which there is a file a map. */
@@ -76,7 +76,7 @@ writePoses(const Options& options, const MapRun& run, std::size_t maps)
 {
   if (options.pose_format == PoseFormat::Csv)
     io::writeFile(options.poses, formatCsv(run));
-  else if (options.pose_format == PoseFormat::Json)
+  else if (options.pose_format == PoseFormat::AsJson)
     io::writeFile(options.poses, formatJson(run, WithTimes::No));
   else
     for (std::size_t map = 0; map < maps; ++map)

@@ -5,25 +5,10 @@
 
 #include "map_run.h"
 
-#include <Eigen/Geometry>
-
 #include <cstddef>
 #include <string>
-#include <vector>
 
 namespace pcl_flashreg::map {
-
-/** \brief Of the two that are the rotation, the one with a positive real part. */
-Eigen::Quaterniond
-quaternionOf(const RigidTransform& pose);
-
-/** \brief The fewest digits that make the same double again; 0 has no sign. */
-std::string
-numberText(double value);
-
-/** \brief tx, ty, tz, qx, qy, qz, qw. */
-std::vector<std::string>
-poseCells(const RigidTransform& pose);
 
 /** \brief Scans of a group, a row each: number, translation, quaternion (x y z w). The number
  * is the name of the scan without its extension where all names are numbers (times), else

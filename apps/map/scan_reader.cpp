@@ -192,11 +192,9 @@ private:
     io::checkPoints(input);
     for (const std::string& note : input.cloud.notes)
       notes_.add(file.path, note);
-    ScanInput<double> scan = io::scanInput(input.cloud, input.xyz);
-    scan.viewpoint_known = options_.viewpoint_known;
-    if (!options_.viewpoint_known)
-      scan.viewpoint.setZero();
-    return maker_.makeScan(scan, set_.resolution);
+    return maker_.makeScan(
+        io::scanInput(input.cloud, input.xyz, options_.viewpoint_known),
+        set_.resolution);
   }
 
   void

@@ -27,6 +27,13 @@ rowsOf(const Matrix& matrix)
   return rows;
 }
 
+/** \brief All of it in one line, with its end. */
+inline std::string
+lineOf(const Json& json)
+{
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
 /** \brief The text that is written, with the end of its last line. */
 inline std::string
 textOf(const Json& json)

@@ -30,4 +30,11 @@ Messages::note(const std::string& what) const
     std::cerr << name_ << ": note: " << what << std::endl;
 }
 
+void
+Messages::tell(const std::string& what) const
+{
+  if (notes_)
+    std::cerr << what << std::endl;
+}
+
 } // namespace pcl_flashreg::program

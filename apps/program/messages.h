@@ -22,6 +22,10 @@ public:
   void
   note(const std::string& what) const;
 
+  /** \brief One line that is no remark, but what was asked for. */
+  void
+  tell(const std::string& what) const;
+
 private:
   std::string name_;
   bool notes_;

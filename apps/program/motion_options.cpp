@@ -38,16 +38,16 @@ directionOf(const std::string& text, const std::string& option)
 }
 
 /** \brief What is said of upright motions, of which nothing was said. */
-const char*
+std::string
 saidForNothing(const MotionWords& words)
 {
   if (words.gravity)
     return "--gravity";
   if (words.source_gravity)
-    return "--gravity-source";
+    return "--gravity-" + words.source_name;
   if (words.target_gravity)
-    return "--gravity-target";
-  return words.max_tilt ? "--max-tilt" : nullptr;
+    return "--gravity-" + words.target_name;
+  return words.max_tilt ? "--max-tilt" : "";
 }
 
 } // namespace
@@ -77,14 +77,14 @@ addMotion(CLI::App& app, const std::string& group, MotionWords& words)
 void
 addGravityOfEach(CLI::App& app, const std::string& group, MotionWords& words)
 {
-  app.add_option("--gravity-source",
+  app.add_option("--gravity-" + words.source_name,
                  words.source_gravity,
-                 wrapped("The same of the source alone"))
+                 wrapped("The same of the " + words.source_name + " alone"))
       ->type_name("X,Y,Z")
       ->group(group);
-  app.add_option("--gravity-target",
+  app.add_option("--gravity-" + words.target_name,
                  words.target_gravity,
-                 wrapped("The same of the target alone"))
+                 wrapped("The same of the " + words.target_name + " alone"))
       ->type_name("X,Y,Z")
       ->group(group);
 }
@@ -92,9 +92,9 @@ addGravityOfEach(CLI::App& app, const std::string& group, MotionWords& words)
 void
 takeMotion(const MotionWords& words, Parameters& parameters)
 {
-  const char* for_nothing = saidForNothing(words);
-  if (!words.upright && for_nothing)
-    throw UsageError(std::string(for_nothing) + ": says nothing without --upright");
+  const std::string for_nothing = saidForNothing(words);
+  if (!words.upright && !for_nothing.empty())
+    throw UsageError(for_nothing + ": says nothing without --upright");
   if (!words.upright)
     return;
   parameters.motion = MotionModel::Upright;
@@ -102,9 +102,11 @@ takeMotion(const MotionWords& words, Parameters& parameters)
     parameters.source_gravity = parameters.target_gravity =
         directionOf(*words.gravity, "--gravity");
   if (words.source_gravity)
-    parameters.source_gravity = directionOf(*words.source_gravity, "--gravity-source");
+    parameters.source_gravity =
+        directionOf(*words.source_gravity, "--gravity-" + words.source_name);
   if (words.target_gravity)
-    parameters.target_gravity = directionOf(*words.target_gravity, "--gravity-target");
+    parameters.target_gravity =
+        directionOf(*words.target_gravity, "--gravity-" + words.target_name);
   parameters.max_tilt = words.max_tilt.value_or(parameters.max_tilt);
   try {
     parameters.validate();

@@ -18,13 +18,16 @@ struct MotionWords {
   /** \brief "x,y,z", of all clouds, and of one alone. */
   std::optional<std::string> gravity, source_gravity, target_gravity;
   std::optional<float> max_tilt;
+  /** \brief What the program calls them: --gravity-<name>. */
+  std::string source_name = "source", target_name = "target";
 };
 
 /** \brief --upright, --gravity and --max-tilt. */
 void
 addMotion(CLI::App& app, const std::string& group, MotionWords& words);
 
-/** \brief --gravity-source and --gravity-target, for clouds in frames of their own. */
+/** \brief --gravity-source and --gravity-target, or as `words` names them, for clouds in
+ * frames of their own. */
 void
 addGravityOfEach(CLI::App& app, const std::string& group, MotionWords& words);
 

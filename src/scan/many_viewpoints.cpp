@@ -189,10 +189,9 @@ placesAmong(const std::vector<Eigen::Vector3f>& points, float step)
     forEachAround(cell, AROUND, [&](const Cell& other) { cells.insert(other); });
   std::vector<Eigen::Vector3f> places;
   for (const Cell& cell : cells)
-    places.push_back(
-        step * Eigen::Vector3f(static_cast<float>(cell[0]) + 0.5f,
-                               static_cast<float>(cell[1]) + 0.5f,
-                               static_cast<float>(cell[2]) + 0.5f));
+    places.push_back(step * Eigen::Vector3f(static_cast<float>(cell[0]) + 0.5f,
+                                            static_cast<float>(cell[1]) + 0.5f,
+                                            static_cast<float>(cell[2]) + 0.5f));
   return places;
 }
 
@@ -244,8 +243,7 @@ facingAway(const std::vector<Eigen::Vector3f>& points,
     });
   };
   Votes first(points.size()), second(points.size());
-  everybodyVotes(first,
-                 [](const Sight& sight) { return std::pow(sight.share, 6); });
+  everybodyVotes(first, [](const Sight& sight) { return std::pow(sight.share, 6); });
   everybodyVotes(second, [&](const Sight& sight) {
     const double lead = std::max(0.0, 2 * shareOfFronts(sight, first) - 1);
     return std::pow(sight.share, 2) * std::pow(lead, 4);

@@ -6,7 +6,7 @@
 #include "../io/cloud_io.h"
 #include "../io/file.h"
 #include "../io/text.h"
-#include "../program/program.h"
+#include "program.h"
 #include "natural_order.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl_flashreg::map {
+namespace pcl_flashreg::program {
 namespace {
 
 /** \brief Clouds in a folder, not in those below it. */
@@ -36,6 +36,7 @@ cloudsIn(const std::string& folder)
     throw io::InputError(folder + ": cannot be read: " + error.message());
   if (clouds.empty())
     throw io::InputError(folder + ": holds no cloud (.pcd, .ply, .bin)");
+  std::sort(clouds.begin(), clouds.end(), naturallyBefore);
   return clouds;
 }
 
@@ -66,7 +67,7 @@ checkTwice(const std::vector<std::string>& paths)
   for (const std::string& path : paths) {
     std::error_code error;
     if (!seen.insert(fs::weakly_canonical(fs::absolute(path), error)).second)
-      throw program::UsageError(path + ": is given twice");
+      throw UsageError(path + ": is given twice");
   }
 }
 
@@ -117,7 +118,9 @@ named(const std::vector<std::string>& paths)
 } // namespace
 
 std::vector<ScanFile>
-findScans(const std::vector<std::string>& given, const std::string& list)
+findScans(const std::vector<std::string>& given,
+          const std::string& list,
+          ScanOrder order)
 {
   std::vector<std::string> paths;
   for (const std::string& path : given) {
@@ -134,10 +137,11 @@ findScans(const std::vector<std::string>& given, const std::string& list)
   }
   checkTwice(paths);
   std::vector<ScanFile> files = named(paths);
-  std::sort(files.begin(), files.end(), [](const ScanFile& a, const ScanFile& b) {
-    return a.name != b.name ? naturallyBefore(a.name, b.name) : a.path < b.path;
-  });
+  if (order == ScanOrder::ByName)
+    std::sort(files.begin(), files.end(), [](const ScanFile& a, const ScanFile& b) {
+      return a.name != b.name ? naturallyBefore(a.name, b.name) : a.path < b.path;
+    });
   return files;
 }
 
-} // namespace pcl_flashreg::map
+} // namespace pcl_flashreg::program

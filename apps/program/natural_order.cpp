@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace pcl_flashreg::map {
+namespace pcl_flashreg::program {
 namespace {
 
 bool
@@ -63,4 +63,4 @@ naturallyBefore(std::string_view a, std::string_view b)
   return a < b;
 }
 
-} // namespace pcl_flashreg::map
+} // namespace pcl_flashreg::program

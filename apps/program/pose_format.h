@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-namespace pcl_flashreg::map {
+namespace pcl_flashreg::program {
 
 /** \brief How poses are written. */
 enum class PoseFormat {
@@ -16,7 +16,7 @@ enum class PoseFormat {
   Kitti,
   /** \brief A row a scan, with names, groups and confidences. */
   Csv,
-  Json
+  AsJson
 };
 
 /** \brief What --format takes. */
@@ -28,9 +28,9 @@ bool
 isOfOneGroup(PoseFormat format);
 
 /** \brief The format that an extension stands for: .tum, .txt, .kitti, .csv, .json.
- * \throws program::UsageError if it stands for none
+ * \throws UsageError if it stands for none
  */
 PoseFormat
 poseFormatOf(const std::string& path);
 
-} // namespace pcl_flashreg::map
+} // namespace pcl_flashreg::program

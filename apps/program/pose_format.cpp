@@ -4,14 +4,14 @@
 #include "pose_format.h"
 
 #include "../io/file.h"
-#include "../program/program.h"
+#include "program.h"
 
-namespace pcl_flashreg::map {
+namespace pcl_flashreg::program {
 
 const std::map<std::string, PoseFormat> POSE_FORMATS = {{"tum", PoseFormat::Tum},
                                                         {"kitti", PoseFormat::Kitti},
                                                         {"csv", PoseFormat::Csv},
-                                                        {"json", PoseFormat::Json}};
+                                                        {"json", PoseFormat::AsJson}};
 
 bool
 isOfOneGroup(PoseFormat format)
@@ -28,10 +28,9 @@ poseFormatOf(const std::string& path)
   extension.erase(0, 1);
   const auto found = POSE_FORMATS.find(extension);
   if (found == POSE_FORMATS.end())
-    throw program::UsageError(path +
-                              ": poses are written as .tum (or .txt), .kitti, .csv or "
-                              ".json; --format says which, whatever the name");
+    throw UsageError(path + ": poses are written as .tum (or .txt), .kitti, .csv or "
+                            ".json; --format says which, whatever the name");
   return found->second;
 }
 
-} // namespace pcl_flashreg::map
+} // namespace pcl_flashreg::program

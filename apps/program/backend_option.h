@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/estimator.h>
+
+#include <CLI/CLI.hpp>
+
+#include <map>
+#include <string>
+
+namespace pcl_flashreg::program {
+
+/** \brief What --backend takes. */
+extern const std::map<std::string, BackendKind> BACKENDS;
+
+/** \brief --backend. */
+void
+addBackend(CLI::App& app, const std::string& group, std::string& word);
+
+} // namespace pcl_flashreg::program
