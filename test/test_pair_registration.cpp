@@ -59,6 +59,30 @@ protected:
   ScanInput<double> source = room().sourceInput(), target = room().targetInput();
 };
 
+/** \brief A scan in a map of ten rooms is seen in the detail that it has; what is a thousand
+ * times as large is in another unit. */
+TEST_F(PairRegistrationTest, APartDecidesOnTheResolution)
+{
+  std::vector<double> rooms;
+  for (int i = 0; i < 10; ++i)
+    for (std::size_t k = 0; k < room().target.size(); k += 3)
+      RoomScans::append(rooms,
+                        Eigen::Map<const Eigen::Vector3d>(&room().target[k]) +
+                            Eigen::Vector3d(6.0 * i, 0, 0));
+  const ScanInput<double> map = RoomScans::inputOf(rooms, room().target_viewpoint);
+  const double of_room = registration.chooseResolution(source, source);
+  const double of_map = registration.chooseResolution(map, map);
+  ASSERT_GT(of_map, 2 * of_room);
+  EXPECT_EQ(registration.chooseResolution(source, map), of_room);
+  EXPECT_EQ(registration.chooseResolution(map, source), of_room);
+  std::vector<double> in_millimetres = room().target;
+  for (double& coordinate : in_millimetres)
+    coordinate *= 1000;
+  EXPECT_GT(registration.chooseResolution(
+                source, RoomScans::inputOf(in_millimetres, room().target_viewpoint)),
+            10.0);
+}
+
 TEST_F(PairRegistrationTest, GoesFromCloudsToAPose)
 {
   const PairResult result = registration.align(source, target, atResolution());

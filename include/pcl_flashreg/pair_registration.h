@@ -42,8 +42,9 @@ struct PairOptions {
   /** \brief The voxel size, in the unit of the clouds, > 0; nothing where nobody knows:
    * scans that are made have their own, the coarser of theirs is taken; for clouds it is
    * estimated (estimateResolution(); estimateVoxelSize() of those that are keypoints with
-   * descriptors) and the coarser taken; correspondences of the caller's tell it by the
-   * spacing of their points, the finer of both sides, since points are repeated there. */
+   * descriptors) and the coarser taken, or that of the smaller cloud, if it is a part of the
+   * other: less than half as large, and as coarse; correspondences of the caller's tell it by
+   * the spacing of their points, the finer of both sides, since points are repeated there. */
   std::optional<double> resolution;
 
   /** \brief Of the estimator, all but the lengths, which follow from the resolution (the

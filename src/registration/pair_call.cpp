@@ -32,6 +32,21 @@ spacingOf(const Scalar* xyz, std::size_t size)
   }
 }
 
+/** \brief The coarser of both; of a cloud and one that is a part of it, that of the part,
+ * since nobody asks for more detail than that has. Beyond that they are not in one unit. */
+double
+resolutionFor(const CloudScale& a, const CloudScale& b)
+{
+  constexpr double A_PART = 2, NOT_ONE_UNIT = 30;
+  const CloudScale &finer = a.resolution < b.resolution ? a : b,
+                   &coarser = a.resolution < b.resolution ? b : a;
+  const double ratio = coarser.resolution / finer.resolution;
+  return ratio > A_PART && ratio < NOT_ONE_UNIT &&
+                 A_PART * finer.extent < coarser.extent
+             ? finer.resolution
+             : coarser.resolution;
+}
+
 JudgingCloud
 judgeFrom(const Scan& scan, const ScanIndex::Data* index)
 {
@@ -75,9 +90,15 @@ PairCall::chooseResolution(const PreparedInput& source, const PreparedInput& tar
   }
   begin(PairStep::Resolution);
   const detail::Stopwatch watch;
-  result_.source_estimate = estimateResolution(source);
-  result_.target_estimate = estimateResolution(target);
-  result_.resolution = std::max(*result_.source_estimate, *result_.target_estimate);
+  // Keypoints with descriptors have the size of their voxels.
+  const auto scale = [](const PreparedInput& input) {
+    return input.features.dimension > 0 ? CloudScale{estimateVoxelSize(input.points), 0}
+                                        : scaleOf(input.points);
+  };
+  const CloudScale of_source = scale(source), of_target = scale(target);
+  result_.source_estimate = of_source.resolution;
+  result_.target_estimate = of_target.resolution;
+  result_.resolution = resolutionFor(of_source, of_target);
   result_.timings.resolution = watch.milliseconds();
 }
 

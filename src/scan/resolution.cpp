@@ -5,6 +5,7 @@
 
 #include "scan/cpu/voxel_count.h"
 #include "scan/points.h"
+#include "scan/scan_maker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,14 +37,21 @@ roundToPreferredNumber(double value)
 
 } // namespace
 
-double
-estimateResolution(const PointView& points)
+CloudScale
+scaleOf(const PointView& points)
 {
   check(points);
   const cpu::VoxelCount voxels(points);
   const double quarter = 0.25 * static_cast<double>(voxels.distinctPoints());
-  return roundToPreferredNumber(
-      voxels.sizeFor(std::max(2.0, std::min(2500.0, quarter))));
+  return {
+      roundToPreferredNumber(voxels.sizeFor(std::max(2.0, std::min(2500.0, quarter)))),
+      voxels.extent()};
+}
+
+double
+estimateResolution(const PointView& points)
+{
+  return scaleOf(points).resolution;
 }
 
 double

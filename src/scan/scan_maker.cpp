@@ -10,8 +10,6 @@
 #include "scan/viewpoint.h"
 #include "support/require.h"
 
-#include <pcl_flashreg/resolution.h>
-
 #include <Eigen/Geometry>
 
 #include <limits>
@@ -159,13 +157,6 @@ PreparedInput::PreparedInput(const ScanInput<Scalar>& input)
 
 template PreparedInput::PreparedInput(const ScanInput<float>&);
 template PreparedInput::PreparedInput(const ScanInput<double>&);
-
-double
-estimateResolution(const PreparedInput& input)
-{
-  return input.features.dimension > 0 ? estimateVoxelSize(input.points)
-                                      : estimateResolution(input.points);
-}
 
 Scan
 ScanMaker::make(const PreparedInput& input,

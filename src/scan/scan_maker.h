@@ -41,11 +41,14 @@ struct PreparedInput {
 extern template PreparedInput::PreparedInput(const ScanInput<float>&);
 extern template PreparedInput::PreparedInput(const ScanInput<double>&);
 
-/** \brief The resolution that suits a cloud, where nobody gave one: of keypoints with
- * descriptors that is the size of their voxels.
- * \throws std::invalid_argument as estimateResolution() */
-double
-estimateResolution(const PreparedInput& input);
+/** \brief What a cloud by itself would be seen at, and how large the middle of it is. */
+struct CloudScale {
+  double resolution, extent;
+};
+
+/** \throws std::invalid_argument as estimateResolution() */
+CloudScale
+scaleOf(const PointView& points);
 
 /** \brief Makes scans, with threads that it is lent and memory of its own. */
 class ScanMaker {

@@ -108,6 +108,15 @@ VoxelCount::VoxelCount(const PointView& points)
 }
 
 double
+VoxelCount::extent() const
+{
+  double extent = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    extent = std::max(extent, high_[axis] - low_[axis]);
+  return extent;
+}
+
+double
 VoxelCount::sizeFor(double count) const
 {
   int level = 0;

@@ -32,6 +32,10 @@ public:
     return counts_[0];
   }
 
+  /** \brief Of the middle, along its longest axis. */
+  double
+  extent() const;
+
   /** \brief The voxel size at which `count` voxels are occupied, interpolated between
    * powers of two; count in [2, distinctPoints()]. */
   double
