@@ -39,7 +39,7 @@ protected:
   void
   writeMap(const std::string& name, double shift = 0) const
   {
-    static const made::HallScans hall(true, 23000);
+    static const made::HallScans hall(true, 15000);
     std::vector<Eigen::Vector3d> points;
     for (std::size_t i = 0; i < SCANS; ++i)
       for (const Eigen::Vector3d& point : hall.scans[i])
@@ -56,7 +56,7 @@ protected:
   hall()
   {
     static const made::HallScans hall = [] {
-      made::HallScans made(true, 15000);
+      made::HallScans made(true, 10000);
       std::rotate(made.scans.begin(), made.scans.begin() + 1, made.scans.end());
       std::rotate(made.T_hall_scan.begin(),
                   made.T_hall_scan.begin() + 1,

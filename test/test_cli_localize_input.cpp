@@ -63,6 +63,7 @@ TEST_F(CliLocalizeInput, badMapsAreErrors)
                  cloudOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}}));
   const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(std::nan(""));
   io::writeCloud(path("nan.pcd"), cloudOf({nowhere, nowhere, nowhere}));
+  expectFailure("scans" + scan, 2, "scans: is a folder: pcl_flashreg_map makes a map");
   expectFailure("nosuch.pcd" + scan, 3, "nosuch.pcd: no such file");
   expectFailure("empty.pcd" + scan, 3, "empty.pcd: is empty");
   expectFailure("nan.pcd" + scan, 3, "nan.pcd: none of its 3 points have finite");

@@ -53,6 +53,9 @@ public:
   {
     if (!fs::exists(options_.map))
       throw io::InputError(options_.map + ": no such file");
+    if (fs::is_directory(options_.map))
+      throw UsageError(options_.map +
+                       ": is a folder: pcl_flashreg_map makes a map of its scans");
     const FileKind kind = kindOf(options_.map);
     if (kind == FileKind::Index) {
       if (!options_.index.empty())

@@ -27,6 +27,8 @@ constexpr Color MAP = {120, 120, 128};
 /** \brief Okabe and Ito's blue and vermilion: they differ for color-blind people, too. */
 constexpr Color TRUSTED = {0, 114, 178}, NOT_TRUSTED = {213, 94, 0};
 
+constexpr drawing::LabelStyle STYLE = {LABEL, INK, PAPER};
+
 map::FlatGroup
 mapFromAbove(const Scan& scan)
 {
@@ -67,20 +69,16 @@ public:
   draw()
   {
     picture_.paste(map::densityOf(flat_, scale_, {MAP}, PAPER), 0, 0);
-    drawPlaces(/* trusted */ false);
-    drawPlaces(/* trusted */ true);
-    const drawing::LabelStyle style{LABEL, INK, PAPER};
-    drawing::writeLabels(picture_, written_, 0, scale_.width, style, lines_);
-    const double bottom = scale_.height + 0.5 * FOOT;
-    drawing::drawScaleBar(
-        picture_, scale_.pixels_per_unit, {MARGIN, bottom}, 0.25 * scale_.width, style);
-    const std::string& caption = drawing_.caption;
-    picture_.write(caption,
-                   scale_.width - MARGIN - picture_.widthOf(caption, LABEL),
-                   bottom + 0.35 * LABEL,
-                   LABEL,
-                   INK,
-                   PAPER);
+    // What is trusted on top, and no line over a dot.
+    const std::vector<Mark> marks = marksOf();
+    for (const Mark& mark : marks) {
+      picture_.drawLine(mark.at, mark.ahead, 5, PAPER);
+      picture_.drawLine(mark.at, mark.ahead, 2.5, colorOf(mark.trusted));
+    }
+    for (const Mark& mark : marks)
+      drawing::drawDot(picture_, mark.at, colorOf(mark.trusted), PAPER);
+    writeLabels(marks);
+    drawFoot();
     return picture_.encode();
   }
 
@@ -111,25 +109,78 @@ private:
     return box;
   }
 
-  void
-  drawPlaces(bool trusted)
+  /** \brief A place in pixels. */
+  struct Mark {
+    std::string label;
+    Eigen::Vector2d at, ahead;
+    bool trusted;
+  };
+
+  static Color
+  colorOf(bool trusted)
   {
-    const Color color = trusted ? TRUSTED : NOT_TRUSTED;
+    return trusted ? TRUSTED : NOT_TRUSTED;
+  }
+
+  /** \brief Those within the picture; what is trusted comes last. */
+  std::vector<Mark>
+  marksOf() const
+  {
+    std::vector<Mark> marks;
     for (std::size_t i = 0; i < labels_.size(); ++i) {
       const DrawnPlace& place = drawing_.places[i];
       const Eigen::Vector2d at =
           scale_.pixelOf(flatPlace(flat_, place.T_map_scan.translation));
-      const bool inside =
-          at.x() >= 0 && at.y() >= 0 && at.x() < scale_.width && at.y() < scale_.height;
-      if (place.trusted != trusted || !inside)
-        continue;
-      const Eigen::Vector2d end = at + HEADING * aheadOf(place.T_map_scan.rotation);
-      picture_.drawLine(at, end, 5, PAPER);
-      picture_.drawLine(at, end, 2.5, color);
-      lines_.push_back(Eigen::AlignedBox2d(at.cwiseMin(end), at.cwiseMax(end)));
-      drawing::drawDot(picture_, at, color, PAPER);
-      written_.push_back({labels_[i], at});
+      if (at.x() >= 0 && at.y() >= 0 && at.x() < scale_.width && at.y() < scale_.height)
+        marks.push_back({labels_[i],
+                         at,
+                         at + HEADING * aheadOf(place.T_map_scan.rotation),
+                         place.trusted});
     }
+    std::stable_partition(
+        marks.begin(), marks.end(), [](const Mark& mark) { return !mark.trusted; });
+    return marks;
+  }
+
+  void
+  writeLabels(const std::vector<Mark>& marks)
+  {
+    std::vector<drawing::Label> labels;
+    std::vector<Eigen::AlignedBox2d> lines;
+    for (const Mark& mark : marks) {
+      labels.push_back({mark.label, mark.at});
+      lines.push_back(Eigen::AlignedBox2d(mark.at.cwiseMin(mark.ahead),
+                                          mark.at.cwiseMax(mark.ahead)));
+    }
+    drawing::writeLabels(picture_, labels, 0, scale_.width, STYLE, lines);
+  }
+
+  /** \brief The scale, and what the colors mean. */
+  void
+  drawFoot()
+  {
+    const double bottom = scale_.height + 0.5 * FOOT;
+    drawing::drawScaleBar(
+        picture_, scale_.pixels_per_unit, {MARGIN, bottom}, 0.25 * scale_.width, STYLE);
+    double right = scale_.width - MARGIN;
+    const bool all_trusted =
+        std::all_of(drawing_.places.begin(),
+                    drawing_.places.end(),
+                    [](const DrawnPlace& place) { return place.trusted; });
+    if (!all_trusted)
+      right = writeLegend("best guess, not trusted", false, right, bottom);
+    writeLegend(drawing_.caption, true, right, bottom);
+  }
+
+  /** \return where the next one to the left ends */
+  double
+  writeLegend(const std::string& text, bool trusted, double right, double y)
+  {
+    constexpr double GAP = 24;
+    const double left = right - picture_.widthOf(text, LABEL);
+    picture_.write(text, left, y + 0.35 * LABEL, LABEL, INK, PAPER);
+    drawing::drawDot(picture_, {left - 12, y}, colorOf(trusted), PAPER);
+    return left - GAP - 12;
   }
 
   /** \brief In pixels, of length 1, or shorter where it leads up or down. */
@@ -147,8 +198,6 @@ private:
   map::FlatGroup flat_;
   map::Scale scale_;
   Picture picture_;
-  std::vector<drawing::Label> written_;
-  std::vector<Eigen::AlignedBox2d> lines_;
 };
 
 } // namespace

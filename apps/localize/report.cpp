@@ -46,8 +46,13 @@ positionText(const Eigen::Vector3d& at, double spacing)
 {
   const int digits =
       std::clamp(static_cast<int>(std::ceil(0.5 - std::log10(spacing))), 0, 9);
-  return "(" + rounded(at.x(), digits) + " " + rounded(at.y(), digits) + " " +
-         rounded(at.z(), digits) + ")";
+  std::string text;
+  for (const double value : {at.x(), at.y(), at.z()}) {
+    const double unit = std::pow(10, -digits);
+    const bool is_zero = std::abs(value) < 0.5 * unit; // which has no sign
+    text += (text.empty() ? "(" : " ") + rounded(is_zero ? 0 : value, digits);
+  }
+  return text + ")";
 }
 
 std::string
