@@ -44,7 +44,8 @@ protected:
     for (std::size_t i = 0; i < SCANS; ++i)
       for (const Eigen::Vector3d& point : hall.scans[i])
         points.push_back(hall.T_hall_scan[i] * point);
-    for (const Eigen::Vector3d& point : made::Room(7, 800, 0.004).points())
+    const made::Room room(7, 800, 0.004);
+    for (const Eigen::Vector3d& point : room.points())
       points.push_back(point + Eigen::Vector3d(15, 0, 0));
     for (Eigen::Vector3d& point : points)
       point.x() += shift;
