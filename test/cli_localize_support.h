@@ -34,8 +34,8 @@ protected:
     writeMap("map.pcd");
   }
 
-  /** \brief The hall, and a room 15 m from it, so that it is more than a scan can see. Other
-   * points of the same surfaces than those of the scans. */
+  /** \brief The hall, and a room 15 m from it, so that it is more than a scan can see.
+   * Other points of the same surfaces than those of the scans. */
   void
   writeMap(const std::string& name, double shift = 0) const
   {
@@ -44,7 +44,7 @@ protected:
     for (std::size_t i = 0; i < SCANS; ++i)
       for (const Eigen::Vector3d& point : hall.scans[i])
         points.push_back(hall.T_hall_scan[i] * point);
-    const made::Room room(7, 800, 0.004);
+    static const made::Room room(7, 800, 0.004);
     for (const Eigen::Vector3d& point : room.points())
       points.push_back(point + Eigen::Vector3d(15, 0, 0));
     for (Eigen::Vector3d& point : points)
@@ -127,7 +127,8 @@ protected:
     return pose;
   }
 
-  /** \brief How far a pose of a scan in the map is off, in metres, a few metres away. */
+  /** \brief How far a pose of a scan in the map is off, in metres, a few metres away.
+   */
   static double
   errorOf(const Eigen::Isometry3d& T_map_scan, std::size_t number)
   {

@@ -177,7 +177,7 @@ TEST_F(EvaluateResults, badRowsNameFileAndLine)
   EXPECT_EQ(complaintAfter(",fast,100,0,1,1,", ",fast,100,0,1,2,"),
             file + "line 3: column success: '2' is not 0 or 1");
   EXPECT_EQ(complaintAfter(",fast,100,", ",fast,"),
-            file + "line 3: found 32 columns, expected 33");
+            file + "line 3: found 33 columns, expected 34");
   EXPECT_EQ(complaintAfter("pair,dataset", "dataset").find(file + "line 2: "), 0u);
   EXPECT_EQ(complaintAfter("# {", "{"),
             file + "line 1: is not the configuration of an evaluation");

@@ -29,8 +29,8 @@ struct Label {
 void
 drawDot(Picture& picture, const Eigen::Vector2d& at, Color color, Color rim);
 
-/** \brief Writes labels beside their places, but for those that would cover what is written
- * already, wherever they went.
+/** \brief Writes labels beside their places, but for those that would cover what is
+ * written already, wherever they went.
  * \param[in] left, right columns between which they stay
  * \param[in] covered what they must not cover either */
 void

@@ -41,8 +41,8 @@ poseCells(const RigidTransform& pose);
 std::string
 inOneLine(std::string name);
 
-/** \brief A row a scan: number, translation, quaternion (x y z w); comments say which scan
- * that is. */
+/** \brief A row a scan: number, translation, quaternion (x y z w); comments say which
+ * scan that is. */
 std::string
 formatTum(const std::vector<PosedScan>& scans);
 

@@ -23,8 +23,8 @@ struct IndexStamp {
   std::size_t bin_fields = 0;
   /** \brief batch::frontEndFingerprint(): changes with what is made of a cloud. */
   std::string front_end;
-  /** \brief Of the beginning of the index, which has its checksums: tells that this is the
-   * stamp of that index. */
+  /** \brief Of the beginning of the index, which has its checksums: tells that this is
+   * the stamp of that index. */
   std::string index;
 };
 
@@ -47,8 +47,8 @@ writeStamp(const IndexStamp& stamp, const std::string& index);
 std::optional<IndexStamp>
 readStamp(const std::string& index);
 
-/** \brief Whether the index was made of what the map holds now. Reads the map only where its
- * name, or its time alone, is another.
+/** \brief Whether the index was made of what the map holds now. Reads the map only
+ * where its name, or its time alone, is another.
  * \throws io::InputError if the map can't be read */
 bool
 isOf(const IndexStamp& stamp, const std::string& map, std::size_t bin_fields);

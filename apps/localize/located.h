@@ -24,7 +24,8 @@ struct Located {
   /** \brief Why it can't be used; empty if it can. */
   std::string error;
   std::size_t keypoints = 0, correspondences = 0;
-  /** \brief Of T_map_scan; converged if it is trusted, which poses beyond --near are not. */
+  /** \brief Of T_map_scan; converged if it is trusted, which poses beyond --near are
+   * not. */
   Result result;
   /** \brief What people should know of it, a line each. */
   std::vector<std::string> warnings;
@@ -49,8 +50,8 @@ struct Located {
   }
 };
 
-/** \brief The other poses that the clouds speak for at least half as much as for the pose
- * itself: matched less contradicted. Best first, five at most. */
+/** \brief The other poses that the clouds speak for at least half as much as for the
+ * pose itself: matched less contradicted. Best first, five at most. */
 std::vector<Hypothesis>
 rivalsOf(const Result& result);
 

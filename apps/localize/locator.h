@@ -18,7 +18,8 @@ public:
           const ScanIndex& map,
           PairRegistration& registration);
 
-  /** \brief A file that can't be used is no exception, but an error in what is returned.
+  /** \brief A file that can't be used is no exception, but an error in what is
+   * returned.
    * \throws BackendError, std::bad_alloc if the machine fails */
   Located
   locate(const program::ScanFile& file);

@@ -63,7 +63,7 @@ public:
       return opened(options_.map);
     }
     if (!options_.index.empty() && fs::exists(options_.index) && isUsable())
-      return opened(options_.index);
+      return kept();
     const detail::Stopwatch watch;
     return made(kind == FileKind::Scan ? savedScan() : scanAt(resolution), watch);
   }
@@ -82,6 +82,18 @@ private:
     return index;
   }
 
+  ScanIndex
+  kept() const
+  {
+    try {
+      return opened(options_.index);
+    }
+    catch (const ScanFileError& error) {
+      throw io::InputError(error.what() +
+                           std::string("; once it is removed, it is made again"));
+    }
+  }
+
   [[noreturn]] void
   refuseLeaf(const std::string& path, double spacing) const
   {
@@ -90,8 +102,8 @@ private:
                      ": leave --leaf out, or name another index");
   }
 
-  /** \brief Whether the index that is there was made of this map; if it is the map's, but
-   * of an earlier state of it, nothing is lost by making it again. */
+  /** \brief Whether the index that is there was made of this map; if it is the map's,
+   * but of an earlier state of it, nothing is lost by making it again. */
   bool
   isUsable() const
   {

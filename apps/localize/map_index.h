@@ -10,8 +10,8 @@
 
 namespace pcl_flashreg::localize {
 
-/** \brief What scans are found in: opened, where the map is an index or has one that was made
- * of it; else made, and kept where that is asked for.
+/** \brief What scans are found in: opened, where the map is an index or has one that
+ * was made of it; else made, and kept where that is asked for.
  * \param[in] resolution what scans need; asked where nothing else tells
  * \throws UsageError if options do not suit the index
  * \throws io::InputError, ScanFileError if a file can't be used */

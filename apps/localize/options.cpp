@@ -37,14 +37,14 @@ Examples:
   pcl_flashreg_localize map.pcd 000010.bin --leaf 0.3 --near 120,-35,0,20 --upright
       the scanner stands level, within 20 m of a place
 
-MAP is a cloud (.pcd, .ply, raw .bin), a scan or an index that this project saved. SCANs are
-clouds, saved scans, or folders of clouds. Standard output has a line of JSON a scan, in the
-order in which they are given, with the names that pcl_flashreg_align --json uses;
-"transformation" maps the scan into the map, "rivals" are other poses that the clouds speak
-for at least half as much. Standard error has what people read.
+MAP is a cloud (.pcd, .ply, raw .bin), a scan or an index that this project saved. SCANs
+are clouds, saved scans, or folders of clouds. Standard output has a line of JSON a scan,
+in the order in which they are given, with the names that pcl_flashreg_align --json uses;
+"transformation" maps the scan into the map, "rivals" are other poses that the clouds
+speak for at least half as much. Standard error has what people read.
 
-Exit status: 0 all scans are placed and trusted; 1 some are not; 2 wrong usage; 3 an input
-file (some scan, too) or the machine is at fault.)";
+Exit status: 0 all scans are placed and trusted; 1 some are not; 2 wrong usage; 3 an
+input file (a scan, too) or the machine is at fault.)";
 
 /** \brief The options whose text needs a second look once all are parsed. */
 struct Words {

@@ -59,8 +59,8 @@ struct Options {
   unsigned threads = 0;
 };
 
-/** \brief Parses the command line and checks what can be checked without reading a file's
- * contents.
+/** \brief Parses the command line and checks what can be checked without reading a
+ * file's contents.
  * \return nothing if help or the version was asked for, and printed
  * \throws UsageError with one line that says what is wrong
  */

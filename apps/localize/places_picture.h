@@ -29,10 +29,10 @@ struct PlacesDrawing {
   const std::string& caption;
 };
 
-/** \brief Draws the map from above, as map::seenFromAbove() has it, and in it the origin of
- * each scan with a line to where its sensor is turned: along its x axis where its z axis is
- * upright, as of laser scanners, else along its z axis, as of cameras. What is trusted has
- * another color than what is not, and lies on top.
+/** \brief Draws the map from above, as map::seenFromAbove() has it, and in it the
+ * origin of each scan with a line to where its sensor is turned: along its x axis
+ * where its z axis is upright, as of laser scanners, else along its z axis, as of
+ * cameras. What is trusted has another color than what is not, and lies on top.
  * \throws io::InputError if the file can't be written
  */
 void

@@ -24,7 +24,7 @@ constexpr double LABEL = 15, HEADING = 22;
 constexpr Color PAPER = {255, 255, 255};
 constexpr Color INK = {45, 45, 50};
 constexpr Color MAP = {120, 120, 128};
-/** \brief Okabe and Ito's blue and vermilion: they differ for color-blind people, too. */
+/** \brief Okabe and Ito's blue and vermilion: color-blind people tell them apart. */
 constexpr Color TRUSTED = {0, 114, 178}, NOT_TRUSTED = {213, 94, 0};
 
 constexpr drawing::LabelStyle STYLE = {LABEL, INK, PAPER};

@@ -19,8 +19,8 @@ using program::rounded;
 
 constexpr double DEGREES = 180 / 3.14159265358979323846;
 
-/** \brief The turn about the map's upright, where the scan is about level in it; the whole
- * turn where it is not. */
+/** \brief The turn about the map's upright, where the scan is about level in it; the
+ * whole turn where it is not. */
 std::string
 headingText(const RigidTransform& pose, const Parameters& parameters)
 {

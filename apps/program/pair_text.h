@@ -16,8 +16,8 @@ namespace pcl_flashreg::program {
 std::string
 vectorText(const Eigen::Vector3d& v);
 
-/** \brief That a stated viewpoint is not believed, and what is used in its place; empty if
- * it is, or if there is no scan. */
+/** \brief That a stated viewpoint is not believed, and what is used in its place; empty
+ * if it is, or if there is no scan. */
 std::string
 viewpointDoubt(const Scan& scan, const Eigen::Vector3d& stated);
 
