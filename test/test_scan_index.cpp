@@ -238,6 +238,29 @@ TEST_F(ScanIndexTest, CorrespondencesAndGuessesHoldBothWays)
             1e-6);
 }
 
+/** \brief Scans that can't be found are not found, whatever is odd about them. */
+TEST_F(ScanIndexTest, OddScansAreNotFound)
+{
+  const ScanIndex index = registration.makeIndex(map());
+  EXPECT_EQ(registration.align(Scan(), index).pose.status,
+            Status::TooFewCorrespondences);
+  EXPECT_EQ(registration.align(scan(), ScanIndex()).pose.status,
+            Status::TooFewCorrespondences);
+  // Three keypoints in one place, and three on a line as long as a voxel.
+  for (const float step : {0.0f, 0.02f}) {
+    std::vector<float> points, descriptors(3 * 33, 1);
+    for (int i = 0; i < 3; ++i)
+      points.insert(points.end(), {step * static_cast<float>(i), 0, 0});
+    ScanInput<float> input;
+    input.points.data = points.data();
+    input.points.size = 3;
+    input.features = {descriptors.data(), 3, 33, 33};
+    const Scan odd = registration.makeScan(input, V);
+    EXPECT_FALSE(registration.align(odd, index).pose.converged);
+    EXPECT_FALSE(registration.align(index.scan(), odd).pose.converged);
+  }
+}
+
 TEST_F(ScanIndexTest, EqualPlacesAreRivals)
 {
   const Scan twice = makeMap(registration, 6.0);

@@ -79,11 +79,7 @@ matchesAround(const Cells& cells, const Cell& cell)
     return std::tie(a.query, a.squared_distance, a.match) <
            std::tie(b.query, b.squared_distance, b.match);
   });
-  const auto sameQuery = [](const FeatureMatch& a, const FeatureMatch& b) {
-    return a.query == b.query;
-  };
-  here.erase(std::unique(here.begin(), here.end(), sameQuery), here.end());
-  return here;
+  return firstOfEach(std::move(here));
 }
 
 /** \brief Whether cells are so near that the places around them are nearly the same. */
@@ -94,6 +90,16 @@ touching(const Cell& a, const Cell& b)
 }
 
 } // namespace
+
+std::vector<FeatureMatch>
+firstOfEach(std::vector<FeatureMatch> matches)
+{
+  const auto sameQuery = [](const FeatureMatch& a, const FeatureMatch& b) {
+    return a.query == b.query;
+  };
+  matches.erase(std::unique(matches.begin(), matches.end(), sameQuery), matches.end());
+  return matches;
+}
 
 bool
 isMapFor(const Scan& map, const Scan& scan)
@@ -107,7 +113,9 @@ matchesByPlace(const Scan& scan,
                const std::vector<FeatureMatch>& matches,
                std::size_t most)
 {
-  const Cells cells = sortIntoCells(map, matches, radiusOf(scan));
+  // Of keypoints in one place, too, a place is some way across.
+  const float side = std::max(radiusOf(scan), static_cast<float>(map.spacing()));
+  const Cells cells = sortIntoCells(map, matches, side);
   struct Place {
     Cell cell;
     std::vector<FeatureMatch> matches;

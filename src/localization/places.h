@@ -18,6 +18,10 @@ isMapFor(const Scan& map, const Scan& scan);
 /** \brief Neighbours that each descriptor of a scan is matched with in a map. */
 constexpr std::size_t NEIGHBORS_IN_MAP = 10;
 
+/** \brief Of the matches of each query, which follow each other, the first. */
+std::vector<FeatureMatch>
+firstOfEach(std::vector<FeatureMatch> matches);
+
 /** \brief Parts of a map, each as large as the scan that is looked for in it, which overlap:
  * those where most of the scan's keypoints have a match, the best first. In the whole map
  * they would be drowned by what is alike elsewhere.

@@ -6,7 +6,6 @@
 #include "localization/places.h"
 #include "matching/search.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace pcl_flashreg {
@@ -14,17 +13,6 @@ namespace {
 
 /** \brief Parts of a map that are looked at, at either resolution. */
 constexpr std::size_t MOST_PLACES = 16;
-
-/** \brief Of several matches of each query the first. */
-std::vector<FeatureMatch>
-firstOfEach(std::vector<FeatureMatch> matches)
-{
-  const auto sameQuery = [](const FeatureMatch& a, const FeatureMatch& b) {
-    return a.query == b.query;
-  };
-  matches.erase(std::unique(matches.begin(), matches.end(), sameQuery), matches.end());
-  return matches;
-}
 
 } // namespace
 
