@@ -3,9 +3,8 @@
 
 #include "option_groups.h"
 
-#include "../io/raw_bin.h"
-#include "../program/backend_option.h"
 #include "../program/help_text.h"
+#include "../program/shared_options.h"
 
 namespace pcl_flashreg::align {
 
@@ -62,14 +61,7 @@ addInputs(CLI::App& app, Options& options, Words& words)
          wrapped("4 x 4 matrix, a pose that is tried like any other hypothesis"))
       ->type_name("FILE")
       ->group("Input");
-  app.add_option(
-         "--bin-fields",
-         options.bin_fields,
-         wrapped("How many float32 a row of a raw .bin file has, x y z first: 4 "
-                 "in KITTI's, 5 in nuScenes' (default: told from the values)"))
-      ->type_name("N")
-      ->check(CLI::Range(std::size_t{3}, io::kMaxRawFields).description(""))
-      ->group("Input");
+  program::addBinFields(app, "Input", options.bin_fields);
 }
 
 void
@@ -144,9 +136,7 @@ addPipeline(CLI::App& app, Options& options, Words& words)
   program::addMotion(app, group, words.motion);
   program::addGravityOfEach(app, group, words.motion);
   program::addBackend(app, group, words.backend);
-  app.add_option("--threads", options.threads, wrapped("CPU threads; 0 for all"))
-      ->capture_default_str()
-      ->group(group);
+  program::addThreads(app, group, options.threads);
 }
 
 void

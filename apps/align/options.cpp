@@ -4,9 +4,9 @@
 #include "options.h"
 
 #include "../io/cloud_io.h"
-#include "../program/backend_option.h"
 #include "../program/command_line.h"
 #include "../program/output_paths.h"
+#include "../program/shared_options.h"
 #include "option_groups.h"
 #include "snapshot.h"
 #include "viewer.h"

@@ -173,6 +173,19 @@ parseDouble(std::string_view word, double& value)
   return error == std::errc();
 }
 
+std::optional<std::vector<double>>
+numbersIn(std::string_view text)
+{
+  std::vector<double> numbers;
+  for (const std::string_view word : splitWords(text, /* commas_too */ true)) {
+    double value = 0;
+    if (!parseDouble(word, value) || !std::isfinite(value))
+      return std::nullopt;
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
 bool
 parseUnsigned(std::string_view word, std::size_t& value)
 {

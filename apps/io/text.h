@@ -6,6 +6,7 @@
 #include "cloud.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,10 @@ beginsWith(std::string_view word, std::string_view beginning);
  * Microsoft's C write them: "nan", "-nan(ind)", "Inf", "-1.#IND", "1.#INF". */
 bool
 parseDouble(std::string_view word, double& value);
+
+/** \brief The numbers of "1,2,3"; nothing if it is not made of numbers, all finite. */
+std::optional<std::vector<double>>
+numbersIn(std::string_view text);
 
 /** \brief The whole of a word as a non-negative integer. */
 bool

@@ -3,12 +3,11 @@
 
 #include "options.h"
 
-#include "../io/raw_bin.h"
 #include "../io/text.h"
-#include "../program/backend_option.h"
 #include "../program/command_line.h"
 #include "../program/help_text.h"
 #include "../program/motion_options.h"
+#include "../program/shared_options.h"
 #include "places_picture.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -99,14 +98,7 @@ addInputs(CLI::App& app, Options& options, Words& words)
                          "no pose beyond is trusted"))
       ->type_name("X,Y,Z,R")
       ->group(group);
-  app.add_option(
-         "--bin-fields",
-         options.bin_fields,
-         wrapped("How many float32 a row of a raw .bin file has, x y z first: 4 in "
-                 "KITTI's, 5 in nuScenes' (default: told from the values)"))
-      ->type_name("N")
-      ->check(CLI::Range(std::size_t{3}, io::kMaxRawFields).description(""))
-      ->group(group);
+  program::addBinFields(app, group, options.bin_fields);
 }
 
 void
@@ -121,10 +113,7 @@ addOutputs(CLI::App& app, Options& options, Words& words)
                          "(everything)"))
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--format", words.format, wrapped("Of --poses, whatever its name"))
-      ->type_name("tum|kitti|csv|json")
-      ->check(CLI::IsMember(program::POSE_FORMATS).description(""))
-      ->group(group);
+  program::addPoseFormat(app, group, words.format);
   app.add_option("--picture",
                  options.picture,
                  wrapped("The map from above, and where in it the scans are; needs no "
@@ -168,29 +157,13 @@ addMethod(CLI::App& app, Options& options, Words& words)
   program::addMotion(app, group, words.motion);
   program::addGravityOfEach(app, group, words.motion);
   program::addBackend(app, group, words.backend);
-  app.add_option("--threads", options.threads, wrapped("CPU threads; 0 for all"))
-      ->capture_default_str()
-      ->group(group);
-}
-
-/** \brief The numbers of "1,2,3"; nothing if it is not made of numbers. */
-std::optional<std::vector<double>>
-numbersIn(const std::string& text)
-{
-  std::vector<double> numbers;
-  for (const std::string_view word : io::splitWords(text, /* commas_too */ true)) {
-    double value = 0;
-    if (!io::parseDouble(word, value) || !std::isfinite(value))
-      return std::nullopt;
-    numbers.push_back(value);
-  }
-  return numbers;
+  program::addThreads(app, group, options.threads);
 }
 
 void
 takeGuess(const std::string& text, Options& options)
 {
-  const std::optional<std::vector<double>> numbers = numbersIn(text);
+  const std::optional<std::vector<double>> numbers = io::numbersIn(text);
   if (!numbers) {
     options.guess_file = text;
     return;
@@ -215,7 +188,7 @@ takeGuess(const std::string& text, Options& options)
 Near
 nearOf(const std::string& text)
 {
-  const std::optional<std::vector<double>> numbers = numbersIn(text);
+  const std::optional<std::vector<double>> numbers = io::numbersIn(text);
   if (!numbers || numbers->size() != 4)
     throw UsageError("--near: expected X,Y,Z,R, found '" + text + "'");
   const std::vector<double>& n = *numbers;

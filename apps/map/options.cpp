@@ -4,10 +4,10 @@
 #include "options.h"
 
 #include "../io/cloud_io.h"
-#include "../io/raw_bin.h"
 #include "../program/command_line.h"
 #include "../program/help_text.h"
 #include "../program/motion_options.h"
+#include "../program/shared_options.h"
 #include "map_picture.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -75,14 +75,7 @@ addInputs(CLI::App& app, Options& options, Words& words)
                options.strict,
                wrapped("End if a scan can't be used, instead of leaving it out"))
       ->group(group);
-  app.add_option(
-         "--bin-fields",
-         options.bin_fields,
-         wrapped("How many float32 a row of a raw .bin file has, x y z first: 4 in "
-                 "KITTI's, 5 in nuScenes' (default: told from the values)"))
-      ->type_name("N")
-      ->check(CLI::Range(std::size_t{3}, io::kMaxRawFields).description(""))
-      ->group(group);
+  program::addBinFields(app, group, options.bin_fields);
 }
 
 void
@@ -111,10 +104,7 @@ addOutputs(CLI::App& app, Options& options, Words& words)
       "Poses of the scans: .tum or .txt (number, translation, quaternion x y z w), "
       ".kitti (3 x 4 matrices), .csv (names, groups, confidences), .json "
       "(everything). The first two have a file a map");
-  app.add_option("--format", words.format, wrapped("Of --poses, whatever its name"))
-      ->type_name("tum|kitti|csv|json")
-      ->check(CLI::IsMember(program::POSE_FORMATS).description(""))
-      ->group(group);
+  program::addPoseFormat(app, group, words.format);
   add_file("--graph",
            options.graph,
            "The pose graph: VERTEX_SE3:QUAT and EDGE_SE3:QUAT",
@@ -166,9 +156,7 @@ addMethod(CLI::App& app, Options& options, Words& words)
                  "it and the points for empty"))
       ->group(group);
   program::addMotion(app, group, words.motion);
-  app.add_option("--threads", options.threads, wrapped("CPU threads; 0 for all"))
-      ->capture_default_str()
-      ->group(group);
+  program::addThreads(app, group, options.threads);
   app.add_option("--low-memory",
                  options.scan_folder,
                  wrapped("Keep scans in files of this folder instead of in memory; "

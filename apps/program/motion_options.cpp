@@ -12,8 +12,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
-#include <string_view>
 #include <vector>
 
 namespace pcl_flashreg::program {
@@ -23,16 +23,12 @@ std::array<float, 3>
 directionOf(const std::string& text, const std::string& option)
 {
   std::array<float, 3> direction{};
-  const std::vector<std::string_view> words =
-      io::splitWords(text, /* commas_too */ true);
-  bool numbers = words.size() == direction.size();
-  for (std::size_t i = 0; numbers && i < words.size(); ++i) {
-    double value = 0;
-    numbers = io::parseDouble(words[i], value);
-    direction[i] = static_cast<float>(value);
-  }
+  const std::optional<std::vector<double>> numbers = io::numbersIn(text);
+  const bool is_direction = numbers && numbers->size() == direction.size();
+  for (std::size_t i = 0; is_direction && i < direction.size(); ++i)
+    direction[i] = static_cast<float>((*numbers)[i]);
   const float length = std::hypot(direction[0], direction[1], direction[2]);
-  if (!numbers || !(length > 0) || !std::isfinite(length))
+  if (!(length > 0) || !std::isfinite(length))
     throw UsageError(option + ": expected a direction, X,Y,Z, found '" + text + "'");
   return direction;
 }
