@@ -7,7 +7,7 @@
 #include "scan/scan_file.h"
 
 #include "scan/scan_data.h"
-#include "support/byte_order.h"
+#include "support/binary_header.h"
 #include "support/checksum.h"
 #include "support/whole_file.h"
 
@@ -20,19 +20,15 @@
 namespace pcl_flashreg {
 namespace {
 
-constexpr char MAGIC[8] = {'f', 'l', 's', 'c', 'a', 'n', '\r', '\n'};
+constexpr std::string_view MAGIC = "flscan\r\n";
 constexpr std::uint32_t VERSION = 2;
-constexpr std::uint32_t BYTE_ORDER_MARK = 0x01020304;
-constexpr std::size_t ALIGNMENT = 64;
 constexpr std::uint64_t HAS_VIEWPOINT = 1, HAS_ORIGINS = 2, VIEWPOINT_FROM_POINTS = 4,
                         NORMALS_ORIENTED = 8;
 constexpr std::uint64_t ALL_FLAGS =
     HAS_VIEWPOINT | HAS_ORIGINS | VIEWPOINT_FROM_POINTS | NORMALS_ORIENTED;
 
 struct Header {
-  char magic[8];
-  std::uint32_t version;
-  std::uint32_t byte_order;
+  FileBeginning beginning;
   std::uint64_t size;
   std::uint64_t dimension;
   std::uint64_t flags;
@@ -42,18 +38,12 @@ struct Header {
 };
 static_assert(sizeof(Header) == 96, "no padding: the bytes are the format");
 
-std::size_t
-aligned(std::size_t size)
-{
-  return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-}
-
 void
 append(std::string& bytes, const void* data, std::size_t size)
 {
   if (size > 0)
     bytes.append(static_cast<const char*>(data), size);
-  bytes.resize(aligned(bytes.size()));
+  bytes.resize(alignedInFile(bytes.size()));
 }
 
 template <typename Value>
@@ -65,29 +55,17 @@ append(std::string& bytes, const Array<Value>& values)
   swapToLittleEndian(&bytes[begin], values.size() * sizeof(Value), sizeof(Value));
 }
 
-/** \brief To the order of the file's bytes, and back. */
-Header
-swapped(Header header)
-{
-  char* const bytes = reinterpret_cast<char*>(&header);
-  constexpr std::size_t WORDS = offsetof(Header, version),
-                        LONGS = offsetof(Header, size);
-  swapToLittleEndian(bytes + WORDS, LONGS - WORDS, 4);
-  swapToLittleEndian(bytes + LONGS, sizeof(header) - LONGS, 8);
-  return header;
-}
-
 /** \brief Bytes that a scan with this header has in all. */
 std::size_t
 sizeFor(const Header& header)
 {
   const auto n = static_cast<std::size_t>(header.size);
-  std::size_t size = aligned(sizeof(Header));
+  std::size_t size = alignedInFile(sizeof(Header));
   for (const std::size_t row :
        {std::size_t{3}, std::size_t{3}, std::size_t{1}, std::size_t{header.dimension}})
-    size += aligned(n * row * sizeof(float));
+    size += alignedInFile(n * row * sizeof(float));
   if (header.flags & HAS_ORIGINS)
-    size += aligned(n * sizeof(std::int32_t));
+    size += alignedInFile(n * sizeof(std::int32_t));
   return size + sizeof(std::uint64_t);
 }
 
@@ -110,27 +88,15 @@ take(std::string_view& bytes,
         reinterpret_cast<char*>(values.data()), count * sizeof(Value), sizeof(Value));
     array = std::move(values);
   }
-  bytes.remove_prefix(aligned(count * sizeof(Value)));
+  bytes.remove_prefix(alignedInFile(count * sizeof(Value)));
 }
 
 /** \brief What can be told before the arrays are looked at. */
 Header
 checkedHeader(std::string_view bytes)
 {
-  Header header;
-  if (bytes.size() < sizeof(header.magic) ||
-      std::memcmp(bytes.data(), MAGIC, sizeof(MAGIC)) != 0)
-    throw ScanFileError("is no scan: it does not begin as one");
-  if (bytes.size() < sizeof(header))
-    throw ScanFileError("is incomplete: it ends within its header");
-  std::memcpy(&header, bytes.data(), sizeof(header));
-  header = swapped(header);
-  if (header.byte_order != BYTE_ORDER_MARK)
-    throw ScanFileError("comes from a machine of another byte order, or is damaged");
-  if (header.version != VERSION)
-    throw ScanFileError("has format " + std::to_string(header.version) +
-                        ", this version of the library reads format " +
-                        std::to_string(VERSION));
+  const auto header = readHeader<Header, ScanFileError>(
+      bytes, MAGIC, VERSION, "is no scan: it does not begin as one");
   const bool from_points = (header.flags & VIEWPOINT_FROM_POINTS) != 0;
   if ((header.flags & ~ALL_FLAGS) != 0 ||
       (from_points && (header.flags & HAS_VIEWPOINT) == 0))
@@ -182,7 +148,7 @@ takeScan(const Header& header,
   data->spacing = header.spacing;
   data->normals_oriented = (header.flags & NORMALS_ORIENTED) != 0;
   data->shift = Eigen::Map<const Eigen::Vector3d>(header.shift);
-  bytes.remove_prefix(aligned(sizeof(header)));
+  bytes.remove_prefix(alignedInFile(sizeof(header)));
   take(bytes, keeper, 3 * n, data->points);
   take(bytes, keeper, 3 * n, data->normals);
   take(bytes, keeper, n, data->curvatures);
@@ -203,9 +169,7 @@ Scan::serialize() const
 {
   const Data& data = *data_;
   Header header = {};
-  std::memcpy(header.magic, MAGIC, sizeof(MAGIC));
-  header.version = VERSION;
-  header.byte_order = BYTE_ORDER_MARK;
+  header.beginning = FileBeginning::of(MAGIC, VERSION);
   header.size = data.size();
   header.dimension = data.dimension;
   header.flags =
@@ -219,7 +183,7 @@ Scan::serialize() const
 
   std::string bytes;
   bytes.reserve(sizeFor(header));
-  header = swapped(header);
+  header = swappedHeader(header);
   append(bytes, &header, sizeof(header));
   append(bytes, data.points);
   append(bytes, data.normals);

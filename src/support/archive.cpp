@@ -4,7 +4,7 @@
 #include "support/archive.h"
 
 #include "support/aligned_buffer.h"
-#include "support/byte_order.h"
+#include "support/binary_header.h"
 #include "support/checksum.h"
 
 #include <algorithm>
@@ -16,41 +16,18 @@
 namespace pcl_flashreg {
 namespace {
 
-constexpr std::size_t ALIGNMENT = 64, MAGIC_SIZE = 8;
-constexpr std::uint32_t BYTE_ORDER_MARK = 0x01020304;
-
 struct Header {
-  char magic[MAGIC_SIZE];
-  std::uint32_t version;
-  std::uint32_t byte_order;
+  FileBeginning beginning;
   std::uint64_t sections;
   std::uint64_t size;
   /** \brief Of the table, and of the arrays. */
   std::uint64_t table_checksum, checksum;
   std::uint64_t reserved[2];
 };
-static_assert(sizeof(Header) == ALIGNMENT, "no padding: the bytes are the format");
+static_assert(sizeof(Header) == FILE_ALIGNMENT, "no padding: the bytes are the format");
 
 /** \brief Bytes of a row of the table. */
 constexpr std::size_t ROW = 3 * sizeof(std::uint64_t);
-
-std::size_t
-aligned(std::size_t size)
-{
-  return (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-}
-
-/** \brief To the order of the file's bytes, and back. */
-Header
-swapped(Header header)
-{
-  char* const bytes = reinterpret_cast<char*>(&header);
-  constexpr std::size_t WORDS = offsetof(Header, version),
-                        LONGS = offsetof(Header, sections);
-  swapToLittleEndian(bytes + WORDS, LONGS - WORDS, 4);
-  swapToLittleEndian(bytes + LONGS, sizeof(header) - LONGS, 8);
-  return header;
-}
 
 /** \brief Row i of the table. */
 std::array<std::uint64_t, 3>
@@ -66,26 +43,15 @@ rowOf(std::string_view bytes, std::size_t i)
 std::size_t
 arraysAt(std::size_t sections)
 {
-  return aligned(sizeof(Header) + sections * ROW);
+  return alignedInFile(sizeof(Header) + sections * ROW);
 }
 
 /** \brief What can be told without the arrays. */
 Header
 checkedHeader(std::string_view bytes, std::string_view magic, std::uint32_t version)
 {
-  if (bytes.substr(0, MAGIC_SIZE) != magic)
-    throw ArchiveError("is not what it should be: it does not begin as one");
-  if (bytes.size() < sizeof(Header))
-    throw ArchiveError("is incomplete: it ends within its header");
-  Header header;
-  std::memcpy(&header, bytes.data(), sizeof(header));
-  header = swapped(header);
-  if (header.byte_order != BYTE_ORDER_MARK)
-    throw ArchiveError("comes from a machine of another byte order, or is damaged");
-  if (header.version != version)
-    throw ArchiveError("has format " + std::to_string(header.version) +
-                       ", this version of the library reads format " +
-                       std::to_string(version));
+  const auto header = readHeader<Header, ArchiveError>(
+      bytes, magic, version, "is not what it should be: it does not begin as one");
   if (header.size != bytes.size())
     throw ArchiveError("is incomplete or damaged: it has " +
                        std::to_string(bytes.size()) + " bytes, its header says " +
@@ -125,7 +91,7 @@ ArchiveWriter::add(const void* data, std::size_t size, std::size_t width)
   if (size > 0)
     arrays_.append(static_cast<const char*>(data), size);
   swapToLittleEndian(&arrays_[begin], size, width);
-  arrays_.resize(aligned(arrays_.size()));
+  arrays_.resize(alignedInFile(arrays_.size()));
 }
 
 std::string
@@ -140,14 +106,12 @@ ArchiveWriter::take()
   }
   table.resize(begin - sizeof(Header));
   Header header = {};
-  std::copy_n(magic_.data(), MAGIC_SIZE, header.magic);
-  header.version = version_;
-  header.byte_order = BYTE_ORDER_MARK;
+  header.beginning = FileBeginning::of(magic_, version_);
   header.sections = sections_.size();
   header.size = begin + arrays_.size();
   header.table_checksum = checksumOf(table.data(), table.size());
   header.checksum = checksumOf(arrays_.data(), arrays_.size());
-  header = swapped(header);
+  header = swappedHeader(header);
   std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));
   bytes.reserve(begin + arrays_.size());
   bytes += table;
@@ -169,7 +133,7 @@ ArchiveReader::ArchiveReader(std::string_view bytes,
   const std::size_t begin = arraysAt(sections_);
   for (std::size_t i = 0; i < sections_; ++i) {
     const auto [at, size, width] = rowOf(bytes, i);
-    if (at % ALIGNMENT != 0 || at < begin || at > bytes.size() ||
+    if (at % FILE_ALIGNMENT != 0 || at < begin || at > bytes.size() ||
         size > bytes.size() - at || width == 0 || size % width != 0)
       throw ArchiveError("is damaged: an array lies outside of it");
   }
