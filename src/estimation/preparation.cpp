@@ -190,7 +190,8 @@ prepare(const CorrespondenceView<Scalar>& in,
 {
   chooseRows(in, parameters, out);
   out.source_centre = centroid(in.source_xyz, out.rows);
-  out.target_centre = target_centre.value_or(centroid(in.target_xyz, out.rows));
+  out.target_centre =
+      target_centre ? *target_centre : centroid(in.target_xyz, out.rows);
   packBoth(in, out, parameters, problem);
 }
 

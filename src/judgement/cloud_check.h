@@ -36,8 +36,8 @@ struct CloudFindings {
 /** \brief Asks the clouds which of many hypotheses is right.
  *
  * All hypotheses are screened on a few points, and the best again on more. The best that
- * differ, a dozen of them, and the favourites, are moved onto the target's surface and judged on all
- * that is known: by (matched + 1 %) / (contradicted + 1 %) * sqrt(support + 5), or without
+ * differ, and the favourites, are moved onto the target's surface and judged on all that is
+ * known: by (matched + 1 %) / (contradicted + 1 %) * sqrt(support + 5), or without
  * the denominator, where neither viewpoints nor the sides of surfaces are believed.
  * Hypotheses may come in several lots, after each of which judge() says which of all so far
  * is right. The same on any number of threads.
@@ -64,7 +64,7 @@ public:
   void
   addPoses(const std::vector<Pose>& hypotheses,
            const std::vector<ScoredPose>& favourites,
-           std::size_t screened = 12);
+           std::size_t screened);
 
   /** \return no pose, if there was none or a cloud has no points */
   CloudFindings

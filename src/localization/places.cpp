@@ -4,9 +4,10 @@
 #include "localization/places.h"
 
 #include "judgement/cpu/vicinity.h"
+#include "math/cell.h"
+#include "math/quantile.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -17,9 +18,6 @@ namespace {
 
 /** \brief Of the keypoints so many lie within the radius of a scan. */
 constexpr double SHARE_WITHIN = 0.9;
-
-/** \brief Cells of the map, as wide as the scan's radius. */
-using Cell = std::array<std::int64_t, 3>;
 
 Eigen::Vector3f
 pointOf(const Scan& scan, std::size_t i)
@@ -38,10 +36,7 @@ radiusOf(const Scan& scan)
   std::vector<float> squared;
   for (std::size_t i = 0; i < scan.size(); ++i)
     squared.push_back((pointOf(scan, i) - mean.cast<float>()).squaredNorm());
-  const auto rank = static_cast<std::ptrdiff_t>(
-      SHARE_WITHIN * static_cast<double>(squared.size() - 1));
-  std::nth_element(squared.begin(), squared.begin() + rank, squared.end());
-  return std::sqrt(squared[static_cast<std::size_t>(rank)]);
+  return std::sqrt(quantileOf(squared, SHARE_WITHIN));
 }
 
 /** \brief Matches by the cell of their keypoint in the map; the matches of a keypoint of the
@@ -52,14 +47,9 @@ Cells
 sortIntoCells(const Scan& map, const std::vector<FeatureMatch>& matches, float side)
 {
   Cells cells;
-  for (const FeatureMatch& match : matches) {
-    const Eigen::Vector3f place = pointOf(map, static_cast<std::size_t>(match.match));
-    Cell cell;
-    for (int axis = 0; axis < 3; ++axis)
-      cell[static_cast<std::size_t>(axis)] =
-          static_cast<std::int64_t>(std::floor(place[axis] / side));
-    cells[cell].push_back(match);
-  }
+  for (const FeatureMatch& match : matches)
+    cells[cellOf(pointOf(map, static_cast<std::size_t>(match.match)), side)].push_back(
+        match);
   return cells;
 }
 
@@ -68,13 +58,11 @@ std::vector<FeatureMatch>
 matchesAround(const Cells& cells, const Cell& cell)
 {
   std::vector<FeatureMatch> here;
-  for (std::int64_t x = -1; x <= 1; ++x)
-    for (std::int64_t y = -1; y <= 1; ++y)
-      for (std::int64_t z = -1; z <= 1; ++z) {
-        const auto found = cells.find({cell[0] + x, cell[1] + y, cell[2] + z});
-        if (found != cells.end())
-          here.insert(here.end(), found->second.begin(), found->second.end());
-      }
+  forEachAround(cell, 1, [&](const Cell& other) {
+    const auto found = cells.find(other);
+    if (found != cells.end())
+      here.insert(here.end(), found->second.begin(), found->second.end());
+  });
   std::sort(here.begin(), here.end(), [](const auto& a, const auto& b) {
     return std::tie(a.query, a.squared_distance, a.match) <
            std::tie(b.query, b.squared_distance, b.match);

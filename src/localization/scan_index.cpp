@@ -3,7 +3,7 @@
 
 #include "localization/scan_index_data.h"
 
-#include <Eigen/Geometry>
+#include "scan/scan_view.h"
 
 #include <stdexcept>
 #include <utility>
@@ -14,34 +14,12 @@ namespace {
 void
 indexFeatures(const Scan& scan, std::optional<FeatureIndex>& index, ThreadPool& pool)
 {
-  if (DistinctFeatures(scan.features()).size() > 0)
-    index.emplace(scan.features(), pool);
+  DistinctFeatures features(scan.features());
+  if (features.size() > 0)
+    index.emplace(std::move(features), pool);
 }
 
 } // namespace
-
-Vec3
-middleOf(const Scan& scan)
-{
-  Eigen::AlignedBox3f box;
-  for (std::size_t i = 0; i < scan.size(); ++i)
-    box.extend(Eigen::Map<const Eigen::Vector3f>(scan.points() + 3 * i));
-  if (box.isEmpty())
-    box.extend(Eigen::Vector3f(Eigen::Vector3f::Zero()));
-  const Eigen::Vector3d middle =
-      0.5 * (box.min().cast<double>() + box.max().cast<double>()) + scan.shift();
-  return {middle.x(), middle.y(), middle.z()};
-}
-
-std::optional<Eigen::Vector3f>
-viewpointIn(const Scan& scan)
-{
-  if (!scan.viewpoint())
-    return std::nullopt;
-  const Vec3 middle = middleOf(scan);
-  return (*scan.viewpoint() - Eigen::Vector3d(middle.x, middle.y, middle.z))
-      .cast<float>();
-}
 
 ScanIndex
 makeScanIndex(const Scan& scan, ScanMaker& maker, ThreadPool& pool)
@@ -56,14 +34,12 @@ makeScanIndex(const Scan& scan, ScanMaker& maker, ThreadPool& pool)
     data->coarse = maker.coarser(scan, COARSER);
   indexFeatures(data->scan, data->features, pool);
   indexFeatures(data->coarse, data->coarse_features, pool);
-  data->middle = middleOf(scan);
-  const Eigen::Vector3d& shift = scan.shift();
-  data->surface.build(
-      CloudView<float>{scan.points(), scan.normals(), scan.size(), std::nullopt},
-      data->middle - Vec3{shift.x(), shift.y(), shift.z()},
-      static_cast<float>(scan.spacing()),
-      true);
-  data->surface.lookFrom(viewpointIn(scan), static_cast<float>(scan.spacing()));
+  const CloudView<float> view = viewOf(scan);
+  data->middle = middleOf(view) + shiftOf(scan);
+  data->surface.build(view,
+                      data->middle - shiftOf(scan),
+                      static_cast<float>(scan.spacing()),
+                      /* in_order */ true);
   return ScanIndex(data);
 }
 

@@ -16,14 +16,6 @@ namespace pcl_flashreg {
 /** \brief By how much the second look's resolution is coarser. */
 constexpr double COARSER = 1.5;
 
-/** \brief Where a scan was seen from, about its middle. */
-std::optional<Eigen::Vector3f>
-viewpointIn(const Scan& scan);
-
-/** \brief The middle of the box around the keypoints. */
-Vec3
-middleOf(const Scan& scan);
-
 struct ScanIndex::Data {
   Data() = default;
   Data(const Data&) = delete;
@@ -35,7 +27,7 @@ struct ScanIndex::Data {
   Scan coarse;
   /** \brief Nothing where no descriptor is finite. */
   std::optional<FeatureIndex> features, coarse_features;
-  /** \brief In order, about the middle. */
+  /** \brief In order, about the middle of the scan. */
   Surface surface;
   Vec3 middle{0, 0, 0};
 };

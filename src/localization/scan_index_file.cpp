@@ -5,6 +5,7 @@
 
 #include "localization/scan_index_data.h"
 #include "scan/scan_file.h"
+#include "scan/scan_view.h"
 #include "support/archive.h"
 #include "support/mapped_file.h"
 
@@ -184,8 +185,10 @@ addSurface(ArchiveWriter& out, const Surface& surface)
 }
 
 void
-nextSurface(ArchiveReader& in, const Scan& scan, Surface& surface)
+nextSurface(ArchiveReader& in, ScanIndex::Data& data)
 {
+  const Scan& scan = data.scan;
+  Surface& surface = data.surface;
   mapArray(in, surface.points, sizeof(float));
   mapArray(in, surface.normals, sizeof(float));
   mapArray(in, surface.keys, sizeof(std::uint64_t));
@@ -202,7 +205,10 @@ nextSurface(ArchiveReader& in, const Scan& scan, Surface& surface)
   mapArray(in, blocks, sizeof(std::uint64_t));
   mapArray(in, cells, sizeof(int));
   require(surface.nearest.restore(side, std::move(blocks), std::move(cells), size));
-  surface.lookFrom(viewpointIn(scan), static_cast<float>(scan.spacing()));
+  const CloudView<float> view = viewOf(scan);
+  data.middle = middleOf(view) + shiftOf(scan);
+  surface.lookFrom(
+      view.viewpoint, data.middle - shiftOf(scan), static_cast<float>(scan.spacing()));
 }
 
 ScanIndex
@@ -213,9 +219,8 @@ indexFrom(ArchiveReader& in)
   data->coarse = nextScan(in);
   nextFeatures(in, data->scan, data->features);
   nextFeatures(in, data->coarse, data->coarse_features);
-  data->middle = middleOf(data->scan);
   if (!data->scan.empty())
-    nextSurface(in, data->scan, data->surface);
+    nextSurface(in, *data);
   return ScanIndex(data);
 }
 

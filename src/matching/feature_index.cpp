@@ -9,8 +9,8 @@
 
 namespace pcl_flashreg {
 
-FeatureIndex::FeatureIndex(const FeatureView& targets, ThreadPool& pool)
-    : features(targets),
+FeatureIndex::FeatureIndex(DistinctFeatures targets, ThreadPool& pool)
+    : features(std::move(targets)),
       space(features, features),
       tree(std::move(plantTrees({&features}, space, pool).front())),
       blocks({features, tree}, space, pool)

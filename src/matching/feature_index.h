@@ -17,8 +17,8 @@ struct FeatureIndex {
   FeatureTree tree;
   TargetBlocks blocks;
 
-  /** \param[in] targets at least one of them finite; must stay where they are */
-  FeatureIndex(const FeatureView& targets, ThreadPool& pool);
+  /** \param[in] targets at least one; those in the view must stay where they are */
+  FeatureIndex(DistinctFeatures targets, ThreadPool& pool);
 
   FeatureIndex(DistinctFeatures distinct,
                FeatureSpace of_them,

@@ -3,28 +3,13 @@
 
 #include "multiview/map_scans.h"
 
+#include "scan/scan_view.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace pcl_flashreg {
-namespace {
-
-Eigen::Vector3d
-middleOf(const Scan& scan)
-{
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    const Eigen::Vector3d point =
-        Eigen::Map<const Eigen::Vector3f>(scan.points() + 3 * i).cast<double>();
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return scan.empty() ? Eigen::Vector3d::Zero().eval() : (0.5 * (low + high)).eval();
-}
-
-} // namespace
-
 MapScans::MapScans(std::size_t count,
                    MultiviewRegistration::ScanSource source,
                    ThreadPool& pool,
@@ -38,7 +23,8 @@ MapScans::MapScans(std::size_t count,
   pool.forEach(count, [&](std::size_t i, std::size_t) {
     const Scan scan = source_(i);
     MapScan& entry = scans_[i];
-    entry.middle = middleOf(scan) + scan.shift();
+    const Vec3 middle = middleOf(viewOf(scan)) + shiftOf(scan);
+    entry.middle = {middle.x, middle.y, middle.z};
     entry.spacing = scan.spacing();
     const auto surface = make(scan, i);
     entry.points = surface->points.size();
@@ -81,15 +67,12 @@ MapScans::surface(std::size_t scan) const
 std::shared_ptr<const Surface>
 MapScans::make(const Scan& scan, std::size_t number) const
 {
-  const Eigen::Vector3d origin = middleOf(scan);
-  CloudView<float> view{scan.points(), scan.normals(), scan.size(), std::nullopt};
-  if (scan.viewpoint() && !blind_[number] &&
-      scan.viewpointSource() != ViewpointSource::Points)
-    view.viewpoint = *scan.viewpoint() - scan.shift();
+  CloudView<float> view = viewOf(scan);
+  view.normals_oriented = false;
+  if (blind_[number] || scan.viewpointSource() == ViewpointSource::Points)
+    view.viewpoint.reset();
   auto surface = std::make_shared<Surface>();
-  surface->build(view,
-                 {origin.x(), origin.y(), origin.z()},
-                 static_cast<float>(scans_[number].spacing));
+  surface->build(view, middleOf(view), static_cast<float>(scans_[number].spacing));
   return surface;
 }
 

@@ -3,6 +3,8 @@
 
 #include "registration/exchange.h"
 
+#include "math/isometry.h"
+
 #include <utility>
 
 namespace pcl_flashreg {
@@ -13,13 +15,10 @@ namespace {
 Eigen::Matrix<double, 6, 6>
 adjointOf(const RigidTransform& T)
 {
-  const Eigen::Vector3d& t = T.translation;
-  Eigen::Matrix3d cross;
-  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
   Eigen::Matrix<double, 6, 6> adjoint = Eigen::Matrix<double, 6, 6>::Zero();
   adjoint.topLeftCorner<3, 3>() = T.rotation;
   adjoint.bottomRightCorner<3, 3>() = T.rotation;
-  adjoint.bottomLeftCorner<3, 3>() = cross * T.rotation;
+  adjoint.bottomLeftCorner<3, 3>() = crossMatrix(T.translation) * T.rotation;
   return adjoint;
 }
 

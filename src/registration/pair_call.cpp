@@ -6,6 +6,7 @@
 #include "localization/places.h"
 #include "registration/exchange.h"
 #include "registration/other_matches.h"
+#include "scan/scan_view.h"
 
 #include <pcl_flashreg/resolution.h>
 
@@ -50,12 +51,7 @@ resolutionFor(const CloudScale& a, const CloudScale& b)
 JudgingCloud
 judgeFrom(const Scan& scan, const ScanIndex::Data* index)
 {
-  CloudView<float> view{scan.points(), scan.normals(), scan.size(), std::nullopt};
-  view.normals_oriented = scan.normalsOriented();
-  if (scan.viewpoint())
-    view.viewpoint = *scan.viewpoint() - scan.shift();
-  const Eigen::Vector3d& shift = scan.shift();
-  JudgingCloud cloud(view, {shift.x(), shift.y(), shift.z()});
+  JudgingCloud cloud(viewOf(scan), shiftOf(scan));
   if (index) {
     cloud.surface = &index->surface;
     cloud.spacing = scan.spacing();

@@ -12,8 +12,6 @@
 #include "math/distinctness.h"
 #include "registration/choose_backend.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <limits>
 
@@ -48,6 +46,9 @@ checkInput(const CorrespondenceView<Scalar>& in)
  * more of them where the clouds choose. */
 constexpr int LISTED = 5, LISTED_FOR_CLOUDS = 20;
 
+/** \brief Hypotheses that may pass the screening. */
+constexpr std::size_t SCREENED = 12;
+
 /** \brief How many hypotheses come before the clouds. */
 struct Passing {
   /** \brief Those that need not pass the screening, and those that do. */
@@ -55,7 +56,7 @@ struct Passing {
 };
 
 /** \brief Of a second look, and of one at a part of a map, of which there are many. */
-constexpr Passing OF_OTHERS{8, 12}, OF_PLACE{3, 4};
+constexpr Passing OF_OTHERS{8, SCREENED}, OF_PLACE{3, 4};
 constexpr int PIVOTS_OF_PLACE = 500;
 
 /** \brief After so many looks the clouds are asked again. */
@@ -213,7 +214,7 @@ PoseSearch::askClouds(const JudgingClouds& clouds,
   const SurfacePair surfaces = prepareClouds(clouds);
   CloudCheck check(surfaces, parameters.inlier_distance, clouds.give_up_early, pool_);
   check.addWitnesses(problem_);
-  check.addPoses(estimate.candidates, estimate.hypotheses);
+  check.addPoses(estimate.candidates, estimate.hypotheses, SCREENED);
   CloudFindings findings = check.judge();
   clock.finish(&StageTimings::cloud_check);
   bool may_be_more = static_cast<bool>(second_look);
@@ -312,21 +313,7 @@ JudgingCloud::middle() const
 {
   if (known_middle)
     return *known_middle;
-  Eigen::AlignedBox3d box;
-  std::visit(
-      [&](const auto& cloud) {
-        for (std::size_t i = 0; i < cloud.size; ++i) {
-          const auto* p = cloud.xyz + 3 * i;
-          const Eigen::Vector3d point(p[0], p[1], p[2]);
-          if (point.allFinite())
-            box.extend(point);
-        }
-      },
-      view);
-  if (box.isEmpty())
-    return shift;
-  const Eigen::Vector3d middle = 0.5 * (box.min() + box.max());
-  return Vec3{middle.x(), middle.y(), middle.z()} + shift;
+  return std::visit([](const auto& cloud) { return middleOf(cloud); }, view) + shift;
 }
 
 SurfacePair

@@ -3,8 +3,10 @@
 
 #include "scan/many_viewpoints.h"
 
+#include "math/cell.h"
+#include "math/cube_image.h"
+
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -27,50 +29,16 @@ constexpr int EDGE = 32, PIXELS = 6 * EDGE * EDGE;
 /** \brief Points are hidden that lie farther than the nearest around by more than this. */
 constexpr float SLOPE = 1.1f, MARGIN = 2;
 
-using Cell = std::array<std::int32_t, 3>;
-
 struct CellHash {
   std::size_t
   operator()(const Cell& cell) const
   {
     std::uint64_t hash = 0;
-    for (const std::int32_t number : cell)
-      hash = (hash ^ static_cast<std::uint32_t>(number)) * 0x9E3779B97F4A7C15ull;
+    for (const std::int64_t number : cell)
+      hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9E3779B97F4A7C15ull;
     return hash ^ (hash >> 29);
   }
 };
-
-Cell
-cellOf(const Eigen::Vector3f& point, float side)
-{
-  const auto number = [&](float x) {
-    return static_cast<std::int32_t>(std::floor(x / side));
-  };
-  return {number(point.x()), number(point.y()), number(point.z())};
-}
-
-template <typename Visit>
-void
-forEachAround(const Cell& cell, int reach, const Visit& visit)
-{
-  for (int x = -reach; x <= reach; ++x)
-    for (int y = -reach; y <= reach; ++y)
-      for (int z = -reach; z <= reach; ++z)
-        visit(Cell{cell[0] + x, cell[1] + y, cell[2] + z});
-}
-
-int
-pixelOf(const Eigen::Vector3f& ray)
-{
-  Eigen::Index axis = 0;
-  const float largest = ray.cwiseAbs().maxCoeff(&axis);
-  const int face = 2 * static_cast<int>(axis) + (ray[axis] > 0 ? 0 : 1);
-  const auto column = [&](Eigen::Index a) {
-    const float along = 0.5f * (ray[a % 3] / largest + 1) * EDGE;
-    return std::min(EDGE - 1, static_cast<int>(along));
-  };
-  return (face * EDGE + column(axis + 1)) * EDGE + column(axis + 2);
-}
 
 /** \brief What a place sees. */
 struct Sight {
@@ -103,7 +71,7 @@ public:
     sight_.seen.clear();
     if (!gather(place))
       return sight_;
-    spread();
+    leastAround(own_, EDGE, around_);
     const auto count = std::count_if(
         around_.begin(), around_.end(), [](float range) { return range < UNSEEN; });
     sight_.share = static_cast<double>(count) / PIXELS;
@@ -123,14 +91,14 @@ private:
 
   struct Ray {
     std::uint32_t point;
-    int pixel;
+    std::size_t pixel;
     float range;
   };
 
   bool
   gather(const Eigen::Vector3f& place)
   {
-    own_.fill(UNSEEN);
+    own_.assign(PIXELS, UNSEEN);
     rays_.clear();
     float nearest = UNSEEN;
     const float reach = REACH * spacing_;
@@ -144,7 +112,8 @@ private:
         nearest = std::min(nearest, range);
         if (range > reach || !(range > 0))
           continue;
-        const int pixel = pixelOf(ray);
+        const auto pixel =
+            static_cast<std::size_t>(cubePixelOf(cubePlaceOf(ray), EDGE));
         own_[pixel] = std::min(own_[pixel], range);
         rays_.push_back({point, pixel, range});
       }
@@ -152,27 +121,12 @@ private:
     return rays_.size() >= FEWEST_POINTS && nearest > TOO_NEAR * spacing_;
   }
 
-  /** \brief Of each pixel the nearest range in it and around it. */
-  void
-  spread()
-  {
-    for (int face = 0; face < 6; ++face)
-      for (int row = 0; row < EDGE; ++row)
-        for (int column = 0; column < EDGE; ++column) {
-          float least = UNSEEN;
-          for (int r = std::max(0, row - 1); r <= std::min(EDGE - 1, row + 1); ++r)
-            for (int c = std::max(0, column - 1); c <= std::min(EDGE - 1, column + 1);
-                 ++c)
-              least = std::min(least, own_[(face * EDGE + r) * EDGE + c]);
-          around_[(face * EDGE + row) * EDGE + column] = least;
-        }
-  }
-
   const std::vector<Eigen::Vector3f>& points_;
   const std::vector<Eigen::Vector3f>& normals_;
   const std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash>& cells_;
   float spacing_;
-  std::array<float, PIXELS> own_, around_;
+  /** \brief Ranges, of each pixel the nearest; and of those around it. */
+  std::vector<float> own_, around_;
   std::vector<Ray> rays_;
   Sight sight_;
 };

@@ -79,9 +79,8 @@ struct SurfacePair {
   bool
   hasSides() const
   {
-    constexpr double MUCH_LARGER = 3;
     return belief == Belief::Sides && source.oriented() && target.oriented() &&
-           viewpoints() < 2 && excess() < MUCH_LARGER;
+           viewpoints() < 2 && excess() < static_cast<double>(Vicinity::MUCH_LARGER);
   }
 
   /** \brief Whether a cloud may have a place twice, once with its sides turned the wrong

@@ -6,6 +6,8 @@
 #include "judgement/cpu/z_order.h"
 #include "support/radix_sort.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 
 namespace pcl_flashreg {
@@ -73,24 +75,46 @@ Surface::build(const CloudView<Scalar>& cloud,
   if (in_order)
     putInOrder(spacing);
   nearest.build(points, spacing);
-  std::optional<Eigen::Vector3f> viewpoint;
-  if (cloud.viewpoint)
-    viewpoint = (*cloud.viewpoint - origin).template cast<float>();
-  lookFrom(viewpoint, spacing);
-  has_sides = cloud.normals_oriented && !free_space.known();
+  lookFrom(cloud.viewpoint, centre, spacing);
+  has_sides = cloud.normals_oriented && !free_space.known() && !in_order;
   constexpr float AROUND = 3;
   const Array<Eigen::Vector3f> none;
   around.build(has_sides ? points : none, AROUND * spacing);
 }
 
 void
-Surface::lookFrom(const std::optional<Eigen::Vector3f>& viewpoint, float spacing)
+Surface::lookFrom(const std::optional<Eigen::Vector3d>& viewpoint,
+                  const Vec3& centre,
+                  float spacing)
 {
+  const Eigen::Vector3d origin(centre.x, centre.y, centre.z);
   if (viewpoint)
-    free_space.build(points, *viewpoint, spacing);
+    free_space.build(points, (*viewpoint - origin).cast<float>(), spacing);
   else
     free_space.clear();
 }
+
+template <typename Scalar>
+Vec3
+middleOf(const CloudView<Scalar>& cloud)
+{
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < cloud.size; ++i) {
+    const Scalar* const p = cloud.xyz + 3 * i;
+    const Eigen::Vector3d point(p[0], p[1], p[2]);
+    if (point.allFinite())
+      box.extend(point);
+  }
+  if (box.isEmpty())
+    return {0, 0, 0};
+  const Eigen::Vector3d middle = 0.5 * (box.min() + box.max());
+  return {middle.x(), middle.y(), middle.z()};
+}
+
+template Vec3
+middleOf(const CloudView<float>&);
+template Vec3
+middleOf(const CloudView<double>&);
 
 template void
 Surface::build(const CloudView<float>&, const Vec3&, float, bool);

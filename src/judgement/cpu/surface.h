@@ -41,7 +41,8 @@ struct Surface {
   }
 
   /** \param[in] centre what is subtracted from every coordinate
-   * \param[in] in_order whether points are to be sorted, for a Vicinity */
+   * \param[in] in_order whether points are to be sorted, for a Vicinity: of such a cloud sides
+   * tell nothing, as it was put together from several views */
   template <typename Scalar>
   void
   build(const CloudView<Scalar>& cloud,
@@ -51,9 +52,12 @@ struct Surface {
 
   /** \brief What lies between the points and where they were seen from is empty, unless that
    * is not known.
-   * \param[in] viewpoint in the frame of the points */
+   * \param[in] viewpoint in the frame of the cloud
+   * \param[in] centre see build() */
   void
-  lookFrom(const std::optional<Eigen::Vector3f>& viewpoint, float spacing);
+  lookFrom(const std::optional<Eigen::Vector3d>& viewpoint,
+           const Vec3& centre,
+           float spacing);
 
   /** \brief Of memory. */
   std::size_t
@@ -69,6 +73,15 @@ private:
   putInOrder(float spacing);
 };
 
+/** \brief The middle of the box around the points that are finite; 0 if there are none. */
+template <typename Scalar>
+Vec3
+middleOf(const CloudView<Scalar>& cloud);
+
+extern template Vec3
+middleOf(const CloudView<float>&);
+extern template Vec3
+middleOf(const CloudView<double>&);
 extern template void
 Surface::build(const CloudView<float>&, const Vec3&, float, bool);
 extern template void

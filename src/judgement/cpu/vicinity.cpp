@@ -4,6 +4,7 @@
 #include "judgement/cpu/vicinity.h"
 
 #include "judgement/cpu/z_order.h"
+#include "math/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +26,7 @@ reachOf(const Surface& cloud)
   squared.reserve(cloud.points.size());
   for (const Eigen::Vector3f& point : cloud.points)
     squared.push_back(point.squaredNorm());
-  const auto rank = static_cast<std::ptrdiff_t>(
-      SHARE_IN_REACH * static_cast<double>(squared.size() - 1));
-  std::nth_element(squared.begin(), squared.begin() + rank, squared.end());
-  return std::sqrt(squared[static_cast<std::size_t>(rank)]);
+  return std::sqrt(quantileOf(squared, SHARE_IN_REACH));
 }
 
 /** \brief Half as wide as the reach, or somewhat more. */

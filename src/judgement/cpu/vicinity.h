@@ -67,12 +67,13 @@ private:
  * points of those that stand for the rest would lie where the source is. */
 class Vicinity {
 public:
-  /** \brief Whether a cloud has so many more points than the other that only a part of it
-   * matters. */
+  /** \brief A cloud that has so many times as many points as the other was put together from
+   * several views, and only a part of it matters. */
+  static constexpr std::size_t MUCH_LARGER = 3;
+
   static bool
   isMuchLarger(std::size_t cloud, std::size_t other)
   {
-    constexpr std::size_t MUCH_LARGER = 3;
     return other > 0 && cloud > MUCH_LARGER * other;
   }
 

@@ -3,6 +3,8 @@
 
 #include "scan/cpu/visibility.h"
 
+#include "math/cube_image.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -29,16 +31,12 @@ public:
   std::uint64_t
   pixelOf(const Eigen::Vector3f& ray) const
   {
-    Eigen::Index axis = 0;
-    const float largest = ray.cwiseAbs().maxCoeff(&axis);
-    if (!(largest > 0))
-      return 0;
-    const auto column = [&](Eigen::Index a) {
-      return static_cast<std::uint64_t>(0.5f * (ray[a] / largest + 1) * edge_);
+    const CubePlace place = cubePlaceOf(ray);
+    const auto number = [&](float share) {
+      return static_cast<std::uint64_t>(share * edge_);
     };
-    const std::uint64_t face = 2 * static_cast<std::uint64_t>(axis) +
-                               (ray[axis] > 0 ? std::uint64_t{0} : std::uint64_t{1});
-    return (face << 48) + (column(axis == 0 ? 1 : 0) << 24) + column(axis == 2 ? 1 : 2);
+    return (static_cast<std::uint64_t>(place.face) << 48) + (number(place.row) << 24) +
+           number(place.column);
   }
 
   void
