@@ -40,12 +40,14 @@ run(PoseSearch& search,
   if (!clouds)
     return search.run(correspondences, parameters, guess, nullptr);
   checkInput(*clouds);
-  JudgingClouds judges{
-      JudgingCloud(clouds->source), JudgingCloud(clouds->target), clouds->spacing};
-  if (!Vicinity::isMuchLarger(clouds->source.size, clouds->target.size))
+  if (!Vicinity::isMuchLarger(clouds->source.size, clouds->target.size)) {
+    const JudgingClouds judges{
+        JudgingCloud(clouds->source), JudgingCloud(clouds->target), clouds->spacing};
     return search.run(correspondences, parameters, guess, &judges);
+  }
   // A scan is looked for in a map, whichever of them is the source.
-  std::swap(judges.source, judges.target);
+  const JudgingClouds judges{
+      JudgingCloud(clouds->target), JudgingCloud(clouds->source), clouds->spacing};
   CorrespondenceView<Scalar> there_and_back = correspondences;
   std::swap(there_and_back.source_xyz, there_and_back.target_xyz);
   std::optional<RigidTransform> guess_back;

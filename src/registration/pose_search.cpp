@@ -8,7 +8,7 @@
 #include "judgement/mirror.h"
 #include "judgement/tilt.h"
 #include "estimation/information.h"
-#include "estimation/leftover.h"
+#include "estimation/part.h"
 #include "math/distinctness.h"
 #include "registration/choose_backend.h"
 
@@ -261,7 +261,7 @@ void
 PoseSearch::fill(Result& result,
                  const PoseEstimate& estimate,
                  const CloudFindings& findings,
-                 const Parameters& parameters) const
+                 const Parameters& parameters)
 {
   result.status = estimate.status;
   result.second_order = estimate.second_order;
@@ -286,6 +286,7 @@ PoseSearch::fill(Result& result,
                      estimate.inliers,
                      rival,
                      parameters.inlier_distance,
+                     pool_,
                      result.evidence);
   // Of several looks, what all their correspondences say.
   if (result.evidence.has_clouds)

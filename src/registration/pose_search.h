@@ -148,7 +148,7 @@ private:
   fill(Result& result,
        const PoseEstimate& estimate,
        const CloudFindings& findings,
-       const Parameters& parameters) const;
+       const Parameters& parameters);
 
   ThreadPool pool_;
   std::unique_ptr<Backend> backend_;
