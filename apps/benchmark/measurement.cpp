@@ -11,7 +11,7 @@ measure(const std::string& name,
         const Parameters& parameters,
         BackendKind backend,
         unsigned threads,
-        int runs)
+        const Repetition& repetition)
 {
   Measurement measurement;
   measurement.name = name;
@@ -23,7 +23,8 @@ measure(const std::string& name,
     estimator.estimate(correspondences, parameters);
 
   std::vector<StageTimings> timings;
-  for (int i = 0; i < runs; ++i)
+  const detail::Stopwatch stopwatch;
+  for (int i = 0; !repetition.isOver(i, stopwatch); ++i)
     timings.push_back(estimator.estimate(correspondences, parameters).timings_ms);
   for (std::size_t s = 0; s < STAGES.size(); ++s)
     measurement.stages[s] = spreadOf(timings, STAGES[s].milliseconds);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "device/device_figures.h"
+#include "repetition.h"
 #include "spread.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -31,7 +32,7 @@ struct Measurement {
 };
 
 /** \brief Times the estimation from correspondences to pose.
- * \param[in] runs warm calls that are counted
+ * \param[in] repetition of the warm calls
  */
 Measurement
 measure(const std::string& name,
@@ -39,6 +40,6 @@ measure(const std::string& name,
         const Parameters& parameters,
         BackendKind backend,
         unsigned threads,
-        int runs);
+        const Repetition& repetition);
 
 } // namespace pcl_flashreg::benchmark

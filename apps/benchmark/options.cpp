@@ -70,9 +70,14 @@ declareOptions(CLI::App& app, Options& options)
   app.add_option("--threads", options.threads, "CPU threads; 0: all")
       ->capture_default_str();
   app.add_option("--runs",
-                 options.runs,
-                 "calls that are counted, a problem [50; on a device 200]")
+                 options.repetition.runs,
+                 "calls that are counted, a problem, at most [50; on a device 200]")
       ->check(CLI::PositiveNumber);
+  app.add_option("--seconds",
+                 options.repetition.seconds,
+                 "after which, and ten calls, no more are counted")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   declareDevice(app, options);
   app.add_option("--json", options.json, "write the figures to this file, too");
 }
@@ -88,8 +93,8 @@ fillIn(Options& options, bool on_device)
   if (options.second_order.empty())
     options.second_order = on_device ? std::vector<std::string>{"exact", "bounded"}
                                      : std::vector<std::string>{"auto"};
-  if (options.runs == 0)
-    options.runs = on_device ? 200 : 50;
+  if (options.repetition.runs == 0)
+    options.repetition.runs = on_device ? 200 : 50;
 }
 
 Parameters

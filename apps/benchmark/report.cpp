@@ -196,7 +196,8 @@ toJson(const Setting& setting, const Options& options, const Figures& figures)
                       {"commit", commit()},
                       {"build", buildType()},
                       {"compiler", __VERSION__},
-                      {"runs", options.runs},
+                      {"runs", options.repetition.runs},
+                      {"seconds", options.repetition.seconds},
                       {"measurements", nlohmann::json::array()},
                       {"ablations", nlohmann::json::array()}};
   if (!setting.device.empty()) {

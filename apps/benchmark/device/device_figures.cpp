@@ -78,10 +78,11 @@ private:
 };
 
 Spread
-timeCalls(ResidentCall& call, int runs)
+timeCalls(ResidentCall& call, const Repetition& repetition)
 {
   std::vector<double> times;
-  for (int i = 0; i < runs; ++i) {
+  const Stopwatch all;
+  for (int i = 0; !repetition.isOver(i, all); ++i) {
     const Stopwatch stopwatch;
     call();
     times.push_back(stopwatch.milliseconds());
@@ -114,7 +115,7 @@ Throughput
 measureThroughput(const CorrespondenceView<double>& correspondences,
                   const Parameters& parameters,
                   unsigned streams,
-                  int runs)
+                  const Repetition& repetition)
 {
   std::vector<Estimator> estimators;
   for (unsigned s = 0; s < streams; ++s) {
@@ -124,19 +125,22 @@ measureThroughput(const CorrespondenceView<double>& correspondences,
   }
   std::promise<void> starting_shot;
   const std::shared_future<void> start(starting_shot.get_future());
-  std::vector<std::future<void>> ends;
+  std::vector<std::future<int>> ends;
   for (Estimator& estimator : estimators)
     ends.push_back(std::async(std::launch::async, [&, start] {
       start.wait();
-      for (int i = 0; i < runs; ++i)
+      const Stopwatch stopwatch;
+      int done = 0;
+      for (; !repetition.isOver(done, stopwatch); ++done)
         estimator.estimate(correspondences, parameters);
+      return done;
     }));
   const Stopwatch stopwatch;
   starting_shot.set_value();
-  for (std::future<void>& end : ends)
-    end.get();
-  return {streams,
-          1e3 * streams * static_cast<double>(runs) / stopwatch.milliseconds()};
+  int pairs = 0;
+  for (std::future<int>& end : ends)
+    pairs += end.get();
+  return {streams, 1e3 * pairs / stopwatch.milliseconds()};
 }
 
 } // namespace
@@ -152,7 +156,7 @@ measureOnDevice(const CorrespondenceView<double>& correspondences,
     ResidentCall call(correspondences, parameters);
     for (int i = 0; i < WARM_UP_RUNS; ++i)
       call();
-    figures.resident_ms = timeCalls(call, effort.runs);
+    figures.resident_ms = timeCalls(call, effort.repetition);
     figures.memory_bytes = free - std::min(free, freeBytes());
     if (effort.energy_seconds > 0)
       figures.energy_mj = energyOf(call, effort.energy_seconds);
@@ -160,7 +164,7 @@ measureOnDevice(const CorrespondenceView<double>& correspondences,
   }
   for (const unsigned streams : effort.streams)
     figures.throughput.push_back(
-        measureThroughput(correspondences, parameters, streams, effort.runs));
+        measureThroughput(correspondences, parameters, streams, effort.repetition));
   return figures;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../repetition.h"
 #include "../spread.h"
 #include "work.h"
 
@@ -40,7 +41,8 @@ struct DeviceFigures {
 
 /** \brief How much is measured. */
 struct DeviceEffort {
-  int runs = 200;
+  /** \brief Of the resident call, and of each stream's. */
+  Repetition repetition;
   std::vector<unsigned> streams;
   /** \brief 0: energy is not measured. */
   double energy_seconds = 0;

@@ -78,10 +78,9 @@ int
 ResidualTest::count(const PoseF& pose) const
 {
   int total = 0;
-  forEachBlock(pose,
-               [&](std::size_t, std::size_t, const std::uint64_t*, int count) {
-                 total += count;
-               });
+  forEachBlock(pose, [&](std::size_t, std::size_t, const std::uint64_t*, int count) {
+    total += count;
+  });
   return total;
 }
 
@@ -89,15 +88,17 @@ std::vector<int>
 ResidualTest::rows(const PoseF& pose) const
 {
   std::vector<int> rows;
-  forEachBlock(
-      pose,
-      [&](std::size_t first, std::size_t words, const std::uint64_t* agreeing, int count) {
-        const std::size_t before = rows.size();
-        rows.resize(before + static_cast<std::size_t>(count));
-        listBits(agreeing, words, rows.data() + before);
-        for (std::size_t i = before; i < rows.size(); ++i)
-          rows[i] += static_cast<int>(WORD_BITS * first);
-      });
+  forEachBlock(pose,
+               [&](std::size_t first,
+                   std::size_t words,
+                   const std::uint64_t* agreeing,
+                   int count) {
+                 const std::size_t before = rows.size();
+                 rows.resize(before + static_cast<std::size_t>(count));
+                 listBits(agreeing, words, rows.data() + before);
+                 for (std::size_t i = before; i < rows.size(); ++i)
+                   rows[i] += static_cast<int>(WORD_BITS * first);
+               });
   return rows;
 }
 
