@@ -53,11 +53,15 @@ measureOne(const Setting& setting,
                                     kindOf(options.backend),
                                     options.threads,
                                     options.repetition);
+  for (const unsigned side_by_side : options.side_by_side)
+    measurement.throughput.push_back(measureThroughput(problem.view(),
+                                                       parameters,
+                                                       kindOf(options.backend),
+                                                       side_by_side,
+                                                       options.repetition));
   if (!setting.device.empty())
-    measurement.device =
-        measureOnDevice(problem.view(),
-                        parameters,
-                        {options.repetition, options.streams, options.energy_seconds});
+    measurement.device = measureOnDevice(
+        problem.view(), parameters, {options.repetition, options.energy_seconds});
   return measurement;
 }
 

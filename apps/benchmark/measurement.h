@@ -16,6 +16,14 @@
 
 namespace pcl_flashreg::benchmark {
 
+/** \brief Whole calls, from correspondences in host memory to the verdict there, in batches of
+ * a problem over and over. */
+struct Throughput {
+  /** \brief How many are worked on at a time. */
+  unsigned side_by_side = 1;
+  double pairs_per_second = 0;
+};
+
 /** \brief One problem, timed. */
 struct Measurement {
   std::string name;
@@ -28,6 +36,7 @@ struct Measurement {
    * host's. */
   std::array<Spread, STAGES.size()> stages;
   Spread total;
+  std::vector<Throughput> throughput;
   std::optional<DeviceFigures> device;
 };
 
@@ -41,5 +50,12 @@ measure(const std::string& name,
         BackendKind backend,
         unsigned threads,
         const Repetition& repetition);
+
+Throughput
+measureThroughput(const CorrespondenceView<double>& correspondences,
+                  const Parameters& parameters,
+                  BackendKind backend,
+                  unsigned side_by_side,
+                  const Repetition& repetition);
 
 } // namespace pcl_flashreg::benchmark

@@ -28,9 +28,9 @@ struct Options {
   unsigned threads = 0;
   /** \brief No runs stand for the backend's default. */
   Repetition repetition{0};
+  std::vector<unsigned> side_by_side;
 
   // On a device.
-  std::vector<unsigned> streams = {1, 2, 4, 8};
   double energy_seconds = 2;
   bool ablation = false;
 

@@ -67,7 +67,7 @@ Stages::begin(const Problem& problem,
   if (!options_.resident_points || !uploaded_)
     upload(problem);
   if (options_.stage_timings)
-    beginning_.record(stream_);
+    beginning_.record(stream_.get());
 }
 
 void
@@ -281,7 +281,7 @@ Stages::finish(double StageTimings::*stage)
   if (!options_.stage_timings)
     return;
   ended_[ended_count_] = stage;
-  ends_[ended_count_++].record(stream_);
+  ends_[ended_count_++].record(stream_.get());
 }
 
 /** \brief Waits for the device. Where stage 2 had not the form or the room that the input

@@ -12,7 +12,6 @@
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <algorithm>
-#include <future>
 #include <memory>
 
 namespace pcl_flashreg::benchmark {
@@ -110,39 +109,6 @@ energyOf(ResidentCall& call, double seconds)
   return (*after - *before) / static_cast<double>(calls);
 }
 
-/** \brief A thread an estimator, which all begin when all are warm. */
-Throughput
-measureThroughput(const CorrespondenceView<double>& correspondences,
-                  const Parameters& parameters,
-                  unsigned streams,
-                  const Repetition& repetition)
-{
-  std::vector<Estimator> estimators;
-  for (unsigned s = 0; s < streams; ++s) {
-    estimators.emplace_back(BackendKind::Cuda, 1);
-    for (int i = 0; i < WARM_UP_RUNS; ++i)
-      estimators.back().estimate(correspondences, parameters);
-  }
-  std::promise<void> starting_shot;
-  const std::shared_future<void> start(starting_shot.get_future());
-  std::vector<std::future<int>> ends;
-  for (Estimator& estimator : estimators)
-    ends.push_back(std::async(std::launch::async, [&, start] {
-      start.wait();
-      const Stopwatch stopwatch;
-      int done = 0;
-      for (; !repetition.isOver(done, stopwatch); ++done)
-        estimator.estimate(correspondences, parameters);
-      return done;
-    }));
-  const Stopwatch stopwatch;
-  starting_shot.set_value();
-  int pairs = 0;
-  for (std::future<int>& end : ends)
-    pairs += end.get();
-  return {streams, 1e3 * pairs / stopwatch.milliseconds()};
-}
-
 } // namespace
 
 DeviceFigures
@@ -162,9 +128,6 @@ measureOnDevice(const CorrespondenceView<double>& correspondences,
       figures.energy_mj = energyOf(call, effort.energy_seconds);
     figures.work = call.work();
   }
-  for (const unsigned streams : effort.streams)
-    figures.throughput.push_back(
-        measureThroughput(correspondences, parameters, streams, effort.repetition));
   return figures;
 }
 
