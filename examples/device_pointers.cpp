@@ -20,13 +20,14 @@ main()
   std::vector<float> source(3 * N), target(3 * N);
   for (std::size_t i = 0; i < 3 * N; ++i) {
     source[i] = 4 * std::abs(std::sin(12.9898f * static_cast<float>(i + 1)));
-    target[i] = i / 3 % 3 == 0 ? source[i] + static_cast<float>(i % 3 + 1)
-                               : 4 * std::abs(std::sin(78.233f * static_cast<float>(i)));
+    target[i] = i / 3 % 3 == 0
+                    ? source[i] + static_cast<float>(i % 3 + 1)
+                    : 4 * std::abs(std::sin(78.233f * static_cast<float>(i)));
   }
   cudaStream_t stream;
   cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking);
   const std::size_t bytes = 3 * N * sizeof(float);
-  void *on_device[3] = {};
+  void* on_device[3] = {};
   for (void*& memory : on_device)
     cudaMalloc(&memory, bytes);
   cudaMemcpyAsync(on_device[0], source.data(), bytes, cudaMemcpyHostToDevice, stream);
@@ -47,7 +48,12 @@ main()
   cudaMemcpyAsync(T, on_device[2], sizeof T, cudaMemcpyDeviceToHost, stream);
   cudaStreamSynchronize(stream);
   std::printf("%s: %zu of %zu agree, shifted by (%.2f, %.2f, %.2f), %s\n",
-              result.backend.c_str(), result.inliers.size(), N, T[3], T[7], T[11],
+              result.backend.c_str(),
+              result.inliers.size(),
+              N,
+              T[3],
+              T[7],
+              T[11],
               result.converged ? "trusted" : "not trusted");
   for (void* memory : on_device)
     cudaFree(memory);

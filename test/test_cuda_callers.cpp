@@ -79,9 +79,9 @@ protected:
     std::copy(target_.begin(), target_.end(), staging_.data + 3 * N);
     std::copy(ranks_.begin(), ranks_.end(), staging_.data + 6 * N);
     const auto send = [&](float* to, const float* from, std::size_t n) {
-      ASSERT_EQ(cudaMemcpyAsync(
-                    to, from, n * sizeof(float), cudaMemcpyHostToDevice, stream_),
-                cudaSuccess);
+      ASSERT_EQ(
+          cudaMemcpyAsync(to, from, n * sizeof(float), cudaMemcpyHostToDevice, stream_),
+          cudaSuccess);
     };
     send(device_source_.data, staging_.data, 3 * N);
     send(device_target_.data, staging_.data + 3 * N, 3 * N);
@@ -98,8 +98,7 @@ protected:
   CorrespondenceView<float>
   onHost(bool with_ranks = false) const
   {
-    return {
-        source_.data(), target_.data(), N, with_ranks ? ranks_.data() : nullptr};
+    return {source_.data(), target_.data(), N, with_ranks ? ranks_.data() : nullptr};
   }
 
   std::array<float, 16>

@@ -139,7 +139,7 @@ Stages::reserveHypotheses()
   const std::size_t size = call_.size;
   const std::size_t cliques = std::size_t{call_.pivots} * call_.cliques_per_pivot;
   row_best_.reserve(size);
-  tie_begin_.reserve(size);
+  tie_begin_.reserve(roundUp(size, 4));
   pivot_keys_.reserve(2 * std::size_t{call_.pivots});
   cliques_.reserve(cliques);
   clique_counts_.reserve(call_.pivots);
