@@ -58,7 +58,8 @@ leastAround(const std::vector<float>& image, int edge, std::vector<float>& least
         };
         float value = image[at(row, column)];
         for (int r = std::max(0, row - 1); r <= std::min(edge - 1, row + 1); ++r)
-          for (int c = std::max(0, column - 1); c <= std::min(edge - 1, column + 1); ++c)
+          for (int c = std::max(0, column - 1); c <= std::min(edge - 1, column + 1);
+               ++c)
             value = std::min(value, image[at(r, c)]);
         least[at(row, column)] = value;
       }

@@ -78,7 +78,8 @@ readHeader(std::string_view bytes,
     throw Error("comes from a machine of another byte order, or is damaged");
   if (header.beginning.version != version)
     throw Error("has format " + std::to_string(header.beginning.version) +
-                ", this version of the library reads format " + std::to_string(version));
+                ", this version of the library reads format " +
+                std::to_string(version));
   return header;
 }
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#pragma once
+
+#include <pcl_flashreg/pair_registration.h>
+
+#include <pybind11/pybind11.h>
+
+#include <optional>
+
+namespace pcl_flashreg::python {
+
+/** \brief Writes what a Parameters of Python's says, None for nothing, into the options.
+ * \throws TypeError, ValueError that name the field */
+void
+applyParameters(pybind11::handle parameters, PairOptions& options);
+
+/** \brief Every field of the core's by its name. */
+pybind11::dict
+fieldsOf(const Parameters& parameters);
+
+} // namespace pcl_flashreg::python

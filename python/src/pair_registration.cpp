@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) the pcl_flashreg authors
+
+#include "bindings.h"
+#include "call.h"
+#include "choice.h"
+#include "options.h"
+#include "pair_argument.h"
+#include "result.h"
+
+#include <pybind11/stl.h>
+
+namespace pcl_flashreg::python {
+namespace {
+
+using namespace py::literals;
+
+/** \brief A PairRegistration that knows whether it is at work. */
+struct Registration {
+  Registration(const std::string& backend, unsigned threads)
+      : registration(choose(BACKENDS, backend, "backend"), threads)
+  {
+  }
+
+  Turn
+  turn()
+  {
+    return {busy, "PairRegistration"};
+  }
+
+  PairRegistration registration;
+  std::atomic<bool> busy{false};
+};
+
+/** \brief PairOptions as far as all calls have them in common. */
+PairOptions
+optionsOf(const std::optional<double>& resolution,
+          py::handle parameters,
+          py::handle guess,
+          bool cloud_check)
+{
+  PairOptions options;
+  options.resolution = resolution;
+  applyParameters(parameters, options);
+  if (!guess.is_none())
+    options.guess = transformOf(guess, "guess");
+  options.cloud_check = cloud_check;
+  return options;
+}
+
+/** \brief Runs a registration that is left before its next step once nobody waits. */
+template <typename Align>
+PairResult
+run(PairOptions options, const Align& align)
+{
+  return compute([&](const Cancellation& cancellation) {
+    options.on_step = [&](const PairProgress&) { cancellation.check(); };
+    PairResult result = align(options);
+    return result;
+  });
+}
+
+template <typename Scalar>
+PairResult
+alignClouds(PairRegistration& registration,
+            const PairArgument& source,
+            const PairArgument& target,
+            const PairOptions& options)
+{
+  const CloudInput<Scalar> from(*source.cloud()), to(*target.cloud());
+  return run(options, [&](const PairOptions& each) {
+    return registration.align(from.input, to.input, each);
+  });
+}
+
+/** \brief The voxel size for a cloud that is registered with a scan. */
+double
+resolutionBeside(const PairArgument& source,
+                 const PairArgument& target,
+                 const PairOptions& options)
+{
+  const double of_scan = target.spacing() ? *target.spacing() : *source.spacing();
+  return options.resolution.value_or(of_scan);
+}
+
+PairResult
+alignScans(PairRegistration& registration,
+           const PairArgument& source,
+           const PairArgument& target,
+           const PairOptions& options)
+{
+  const double resolution = resolutionBeside(source, target, options);
+  const auto from = source.scanMaker(ScanContent::Descriptors);
+  const auto to = target.scanMaker(ScanContent::Descriptors);
+  return run(options, [&](const PairOptions& each) {
+    const Scan scan = from(registration, resolution);
+    if (target.index())
+      return registration.align(scan, *target.index(), each);
+    return registration.align(scan, to(registration, resolution), each);
+  });
+}
+
+PairResult
+align(Registration& self,
+      py::handle source,
+      py::handle target,
+      const std::optional<double>& resolution,
+      py::handle parameters,
+      py::handle guess,
+      std::size_t neighbors,
+      bool mutual,
+      bool cloud_check,
+      bool second_look,
+      bool give_up_early)
+{
+  const Turn turn = self.turn();
+  PairOptions options = optionsOf(resolution, parameters, guess, cloud_check);
+  options.neighbors = neighbors;
+  options.mutual = mutual;
+  options.second_look = second_look;
+  options.give_up_early = give_up_early;
+  const PairArgument from(source, "source"), to(target, "target");
+  if (from.index())
+    throw py::type_error("source: is a ScanIndex, which only the target can be");
+  if (!from.cloud() || !to.cloud())
+    return alignScans(self.registration, from, to, options);
+  if (from.isDouble() || to.isDouble())
+    return alignClouds<double>(self.registration, from, to, options);
+  return alignClouds<float>(self.registration, from, to, options);
+}
+
+/** \brief Correspondences of the caller's, and the arrays that they are in. */
+template <typename Scalar>
+struct Pairs {
+  Pairs(const py::array& source_points,
+        const py::array& target_points,
+        const std::optional<Rows<float>>& given_ranks)
+      : source(rowsOf<Scalar>(source_points, RowLayout::Packed)),
+        target(rowsOf<Scalar>(target_points, RowLayout::Packed)),
+        ranks(given_ranks)
+  {
+  }
+
+  CorrespondenceView<Scalar>
+  view() const
+  {
+    return {source.data, target.data, source.size, ranks ? ranks->data : nullptr};
+  }
+
+  Rows<Scalar> source, target;
+  std::optional<Rows<float>> ranks;
+};
+
+/** \brief The clouds that correspondences lie in, or none of both. */
+struct PairClouds {
+  PairClouds(py::handle from, py::handle to)
+  {
+    if (from.is_none() != to.is_none())
+      throw py::value_error(std::string(from.is_none() ? "source" : "target") +
+                            ": is None, and the other cloud is not; give both or none");
+    if (from.is_none())
+      return;
+    source.emplace(from, "source");
+    target.emplace(to, "target");
+  }
+
+  bool
+  hasScan() const
+  {
+    return source && !(source->cloud() && target->cloud());
+  }
+
+  std::optional<PairArgument> source, target;
+};
+
+template <typename Scalar>
+PairResult
+estimate(PairRegistration& registration,
+         const Pairs<Scalar>& pairs,
+         const PairClouds& clouds,
+         const PairOptions& options)
+{
+  std::optional<CloudInput<Scalar>> from, to;
+  if (clouds.source) {
+    from.emplace(*clouds.source->cloud());
+    to.emplace(*clouds.target->cloud());
+  }
+  const ScanInput<Scalar> none;
+  return run(options, [&](const PairOptions& each) {
+    return registration.align(
+        from ? from->input : none, to ? to->input : none, pairs.view(), each);
+  });
+}
+
+PairResult
+estimateWithScans(PairRegistration& registration,
+                  const Pairs<double>& pairs,
+                  const PairClouds& clouds,
+                  const PairOptions& options)
+{
+  const double resolution = resolutionBeside(*clouds.source, *clouds.target, options);
+  const auto from = clouds.source->scanMaker(ScanContent::Surface);
+  const auto to = clouds.target->scanMaker(ScanContent::Surface);
+  return run(options, [&](const PairOptions& each) {
+    return registration.align(from(registration, resolution),
+                              to(registration, resolution),
+                              pairs.view(),
+                              each);
+  });
+}
+
+PairResult
+estimatePose(Registration& self,
+             py::handle source_points,
+             py::handle target_points,
+             const std::optional<double>& resolution,
+             py::handle ranks,
+             py::handle source,
+             py::handle target,
+             py::handle parameters,
+             py::handle guess,
+             bool cloud_check)
+{
+  const Turn turn = self.turn();
+  const PairOptions options = optionsOf(resolution, parameters, guess, cloud_check);
+  const py::array from = floatTable(source_points, "source_points", 3);
+  const py::array to = floatTable(target_points, "target_points", 3);
+  if (from.shape(0) != to.shape(0))
+    throw py::value_error("target_points: are " + std::to_string(to.shape(0)) +
+                          ", but source_points are " + std::to_string(from.shape(0)));
+  std::optional<Rows<float>> given_ranks;
+  if (!ranks.is_none())
+    given_ranks = columnOf(ranks, "ranks");
+  if (given_ranks && given_ranks->size != static_cast<std::size_t>(from.shape(0)))
+    throw py::value_error("ranks: are " + std::to_string(given_ranks->size) +
+                          ", but correspondences are " + std::to_string(from.shape(0)));
+  const PairClouds clouds(source, target);
+  if (clouds.hasScan())
+    return estimateWithScans(
+        self.registration, Pairs<double>(from, to, given_ranks), clouds, options);
+  if (isDouble(from) || isDouble(to) ||
+      (clouds.source && (clouds.source->isDouble() || clouds.target->isDouble())))
+    return estimate(
+        self.registration, Pairs<double>(from, to, given_ranks), clouds, options);
+  return estimate(
+      self.registration, Pairs<float>(from, to, given_ranks), clouds, options);
+}
+
+Scan
+makeScan(Registration& self, py::handle cloud, double resolution, bool descriptors)
+{
+  const Turn turn = self.turn();
+  const PairArgument argument(cloud, "cloud");
+  if (!argument.cloud())
+    throw py::type_error("cloud: is a scan already");
+  const auto make =
+      argument.scanMaker(descriptors ? ScanContent::Descriptors : ScanContent::Surface);
+  return compute(
+      [&](const Cancellation&) { return make(self.registration, resolution); });
+}
+
+ScanIndex
+makeIndex(Registration& self, const Scan& scan)
+{
+  const Turn turn = self.turn();
+  return compute(
+      [&](const Cancellation&) { return self.registration.makeIndex(scan); });
+}
+
+py::tuple
+match(Registration& self,
+      const Scan& source,
+      const Scan& target,
+      std::size_t neighbors,
+      bool mutual)
+{
+  const Turn turn = self.turn();
+  PairOptions options;
+  options.neighbors = neighbors;
+  options.mutual = mutual;
+  return tupleOf(compute([&](const Cancellation&) {
+    return self.registration.match(source, target, options);
+  }));
+}
+
+const char* const ALIGN = R"(Registers two clouds with no initial guess.
+
+Args:
+    source, target: each an N x 3 array of float32 or float64, what offers its memory as one
+        (Open3D's Vector3dVector and tensors, torch's tensors on the CPU, DLPack), something
+        with such points (Open3D's PointCloud), a path to a PCD, PLY or .bin file, a Cloud or
+        a Scan; the target may be a ScanIndex. An array counts as seen from its origin, a
+        file from where it says; a Cloud says otherwise. A cloud beside a scan is made one at
+        the scan's resolution.
+    resolution: voxel size, in the unit of the clouds; None to estimate it.
+    parameters: of the estimator; None for the defaults.
+    guess: 4 x 4, a pose that is tried like any other hypothesis.
+    neighbors: target descriptors that each source descriptor is matched with.
+    mutual: keep matches that hold both ways only.
+    cloud_check: whether the clouds judge the hypotheses, too.
+    second_look: whether to look a second time where the clouds leave the pose in doubt.
+    give_up_early: whether to spend no more time once no pose can become certain.
+
+Returns:
+    A Result. The same input gives the same result to the last bit.
+
+Raises:
+    TypeError: an argument is of another type; coordinates are neither float32 nor float64.
+    ValueError: an array has another shape, a parameter or option is out of range, a cloud
+        whose resolution has to be estimated has fewer than two distinct finite points.
+    OSError: a file can't be read.
+    RuntimeError: the object is in a call of another thread.
+    BackendError: the machine fails.
+)";
+
+const char* const ESTIMATE_POSE =
+    R"(Finds the pose from correspondences, of which most may be wrong.
+
+Args:
+    source_points, target_points: N x 3 each, float32 or float64; row i of one belongs to row
+        i of the other. Rows with a coordinate that is not finite are ignored.
+    resolution: voxel size of the clouds that they come from; None to tell it by the spacing
+        of the points.
+    ranks: N, smaller is better (a distance in feature space); None: the order of the rows.
+        They decide which rows are left out beyond Parameters.max_correspondences.
+    source, target: the clouds, as align() takes them, which judge the pose; both or none.
+    parameters, guess, cloud_check: as for align().
+
+Returns:
+    A Result, whose inliers are rows of the arrays.
+
+Raises:
+    As align().
+)";
+
+void
+bindCalls(py::class_<Registration>& registration)
+{
+  registration
+      .def("align",
+           &align,
+           "source"_a,
+           "target"_a,
+           "resolution"_a = py::none(),
+           py::kw_only(),
+           "parameters"_a = py::none(),
+           "guess"_a = py::none(),
+           "neighbors"_a = 1,
+           "mutual"_a = false,
+           "cloud_check"_a = true,
+           "second_look"_a = true,
+           "give_up_early"_a = false,
+           ALIGN)
+      .def("estimate_pose",
+           &estimatePose,
+           "source_points"_a,
+           "target_points"_a,
+           "resolution"_a = py::none(),
+           py::kw_only(),
+           "ranks"_a = py::none(),
+           "source"_a = py::none(),
+           "target"_a = py::none(),
+           "parameters"_a = py::none(),
+           "guess"_a = py::none(),
+           "cloud_check"_a = true,
+           ESTIMATE_POSE);
+}
+
+void
+bindScans(py::class_<Registration>& registration)
+{
+  registration
+      .def("make_scan",
+           &makeScan,
+           "cloud"_a,
+           "resolution"_a,
+           py::kw_only(),
+           "descriptors"_a = true,
+           R"(Makes a scan: keypoints, normals and descriptors.
+
+Args:
+    cloud: as the source of align().
+    resolution: voxel size, in the unit of the cloud; of one with features, the spacing of
+        its points.
+    descriptors: False for a surface alone, which judges correspondences of the caller's.
+
+Raises:
+    As align(); ValueError: the resolution is not > 0, or too small for the cloud's extent.
+)")
+      .def("make_index",
+           &makeIndex,
+           "scan"_a,
+           "Makes what scans are found in, for maps that are asked more than once.\n\n"
+           "Raises:\n    ValueError: the scan has no descriptors.\n")
+      .def("match",
+           &match,
+           "source"_a,
+           "target"_a,
+           py::kw_only(),
+           "neighbors"_a = 1,
+           "mutual"_a = false,
+           R"(Each descriptor of the source with its nearest ones of the target.
+
+Returns:
+    M x 2 int32, rows of source and target keypoints; M float32, squared distances.
+
+Raises:
+    ValueError: the descriptors' dimensions differ.
+)");
+}
+
+} // namespace
+
+void
+bindPairRegistration(py::module_& module)
+{
+  py::class_<Registration> registration(
+      module,
+      "PairRegistration",
+      R"(Registers pairs of clouds; keeps its threads and its memory from call to call.
+
+Args:
+    num_threads: CPU threads of all steps; 0 for as many as there are processors.
+    backend: 'auto', 'cpu' or 'cuda'.
+
+Use one object a thread: while one computes, all others of Python's go on.
+
+Raises:
+    BackendError: the backend is not to be had on this machine.
+)");
+  registration
+      .def(py::init([](unsigned num_threads, const std::string& backend) {
+             return std::make_unique<Registration>(backend, num_threads);
+           }),
+           "num_threads"_a = 0,
+           "backend"_a = "auto")
+      .def_property_readonly(
+          "backend",
+          [](const Registration& self) { return self.registration.backendName(); },
+          "Name of the backend that was chosen, e.g. 'cpu-avx512'.")
+      .def("__repr__", [](const Registration& self) {
+        return "PairRegistration(" + self.registration.backendName() + ")";
+      });
+  bindCalls(registration);
+  bindScans(registration);
+  module.def("default_parameters", [](double resolution) {
+    return fieldsOf(Parameters::fromResolution(resolution));
+  });
+}
+
+} // namespace pcl_flashreg::python
