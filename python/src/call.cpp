@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <set>
 #include <thread>
 
 namespace pcl_flashreg::python {
@@ -30,6 +31,58 @@ onMainThread()
   const py::module_ threading = py::module_::import("threading");
   return threading.attr("get_ident")().equal(
       threading.attr("main_thread")().attr("ident"));
+}
+
+/** \brief What is under way in all threads; looked at with Python's lock alone. */
+struct Running {
+  std::set<Cancellation*> computations;
+  bool python_ends = false;
+};
+
+Running&
+running()
+{
+  static Running all;
+  return all;
+}
+
+[[noreturn]] void
+exitThread()
+{
+  PyErr_SetNone(PyExc_SystemExit);
+  throw py::error_already_set();
+}
+
+/** \brief A computation, from before it gives Python's lock away until it has it again. */
+class UnderWay {
+public:
+  UnderWay()
+  {
+    if (running().python_ends)
+      exitThread();
+    running().computations.insert(&cancellation);
+  }
+  ~UnderWay()
+  {
+    running().computations.erase(&cancellation);
+  }
+  UnderWay(const UnderWay&) = delete;
+  UnderWay&
+  operator=(const UnderWay&) = delete;
+
+  Cancellation cancellation;
+};
+
+void
+endAll()
+{
+  running().python_ends = true;
+  for (Cancellation* computation : running().computations)
+    computation->request();
+  while (!running().computations.empty()) {
+    const py::gil_scoped_release others_go_on;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
 }
 
 /** \brief Work in a thread of its own, which nobody gets rid of before it is done. */
@@ -113,16 +166,32 @@ Cancellation::check() const
 void
 computeInterruptibly(const std::function<void(const Cancellation&)>& work)
 {
-  Cancellation cancellation;
-  if (!onMainThread()) {
-    const py::gil_scoped_release others_go_on;
-    return work(cancellation);
+  UnderWay under_way;
+  Cancellation& cancellation = under_way.cancellation;
+  try {
+    if (!onMainThread()) {
+      const py::gil_scoped_release others_go_on;
+      return work(cancellation);
+    }
+    Worker worker(work, cancellation);
+    if (const auto interruption = waitFor(worker, cancellation))
+      throw *interruption;
+    if (worker.error())
+      std::rethrow_exception(worker.error());
   }
-  Worker worker(work, cancellation);
-  if (const auto interruption = waitFor(worker, cancellation))
-    throw *interruption;
-  if (worker.error())
-    std::rethrow_exception(worker.error());
+  catch (const Cancelled&) {
+    exitThread();
+  }
+}
+
+void
+endBeforePython()
+{
+  py::module_::import("atexit").attr("register")(py::cpp_function(&endAll));
+  // Of the threads of a process its child has the one that forked alone.
+  py::module_::import("os").attr("register_at_fork")(
+      py::arg("after_in_child") =
+          py::cpp_function([] { running().computations.clear(); }));
 }
 
 } // namespace pcl_flashreg::python

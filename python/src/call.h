@@ -39,7 +39,8 @@ private:
  * Signals reach Python in its main thread alone. Called there, the work has a thread of its
  * own, while this one looks after signals: once a handler raises an exception, as that of
  * Ctrl-C does, the work is asked to end, is waited for, since it uses what the caller owns,
- * and the exception goes on. */
+ * and the exception goes on.
+ * \throws SystemExit once Python is about to end */
 void
 computeInterruptibly(const std::function<void(const Cancellation&)>& work);
 
@@ -53,6 +54,11 @@ compute(const Work& work)
       [&](const Cancellation& cancellation) { result.emplace(work(cancellation)); });
   return std::move(*result);
 }
+
+/** \brief Sees to it that computations of all threads end before Python does, which then ends
+ * whichever thread asks for its lock, in the middle of C++. */
+void
+endBeforePython();
 
 /** \brief Objects of the core work for one thread at a time; Python's threads would notice by
  * a crash. */

@@ -2,6 +2,7 @@
 // Copyright (c) the pcl_flashreg authors
 
 #include "bindings.h"
+#include "call.h"
 
 #include <pcl_flashreg/estimator.h>
 
@@ -18,6 +19,7 @@ PYBIND11_MODULE(_core, module)
   module.def("available_backends",
              &availableBackends,
              "Names of the backends that this machine can run, best first.");
+  python::endBeforePython();
   python::bindResult(module);
   python::bindCloud(module);
   python::bindScan(module);
