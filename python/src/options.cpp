@@ -104,6 +104,15 @@ applyParameters(py::handle parameters, PairOptions& options)
   values.min_confidence = fields.get<float>("min_confidence");
 }
 
+void
+applyMatching(std::size_t neighbors, bool mutual, PairOptions& options)
+{
+  if (neighbors == 0)
+    throw py::value_error("neighbors is 0, but must be >= 1");
+  options.neighbors = neighbors;
+  options.mutual = mutual;
+}
+
 py::dict
 fieldsOf(const Parameters& parameters)
 {

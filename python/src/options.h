@@ -16,6 +16,11 @@ namespace pcl_flashreg::python {
 void
 applyParameters(pybind11::handle parameters, PairOptions& options);
 
+/** \brief How matches are made.
+ * \throws ValueError if there are to be none */
+void
+applyMatching(std::size_t neighbors, bool mutual, PairOptions& options);
+
 /** \brief Every field of the core's by its name. */
 pybind11::dict
 fieldsOf(const Parameters& parameters);

@@ -38,6 +38,14 @@ PairArgument::spacing() const
   return (scan_ ? *scan_ : index_->scan()).spacing();
 }
 
+void
+PairArgument::requireDescriptors(const char* name) const
+{
+  if (scan_ && !scan_->empty() && scan_->features().dimension == 0)
+    throw py::value_error(std::string(name) + ": is a scan without descriptors, which "
+                                              "judges correspondences only");
+}
+
 PairArgument::MakeScan
 PairArgument::scanMaker(ScanContent content) const
 {

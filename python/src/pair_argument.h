@@ -41,6 +41,10 @@ public:
   std::optional<double>
   spacing() const;
 
+  /** \throws ValueError if it is a scan with keypoints, but with no descriptors */
+  void
+  requireDescriptors(const char* name) const;
+
   using MakeScan = std::function<Scan(PairRegistration&, double resolution)>;
   /** \brief Makes the scan, or has it; what is returned may be called without Python's lock,
    * and is to be destroyed with it. */

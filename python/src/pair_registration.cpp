@@ -89,6 +89,8 @@ alignScans(PairRegistration& registration,
            const PairArgument& target,
            const PairOptions& options)
 {
+  source.requireDescriptors("source");
+  target.requireDescriptors("target");
   const double resolution = resolutionBeside(source, target, options);
   const auto from = source.scanMaker(ScanContent::Descriptors);
   const auto to = target.scanMaker(ScanContent::Descriptors);
@@ -115,8 +117,7 @@ align(Registration& self,
 {
   const Turn turn = self.turn();
   PairOptions options = optionsOf(resolution, parameters, guess, cloud_check);
-  options.neighbors = neighbors;
-  options.mutual = mutual;
+  applyMatching(neighbors, mutual, options);
   options.second_look = second_look;
   options.give_up_early = give_up_early;
   const PairArgument from(source, "source"), to(target, "target");
@@ -276,8 +277,7 @@ match(Registration& self,
 {
   const Turn turn = self.turn();
   PairOptions options;
-  options.neighbors = neighbors;
-  options.mutual = mutual;
+  applyMatching(neighbors, mutual, options);
   return tupleOf(compute([&](const Cancellation&) {
     return self.registration.match(source, target, options);
   }));

@@ -101,7 +101,14 @@ bindEvidence(py::module_& module)
       .def_readonly("lead", &E::lead)
       .def_readonly("rivals", &E::rivals)
       .def_readonly("hold", &E::hold)
-      .def_readonly("stiffness", &E::stiffness);
+      .def_readonly("stiffness", &E::stiffness)
+      .def("__repr__", [](const E& e) {
+        return "Evidence(inliers " + rounded(e.inliers, 0) + ", rival_inliers " +
+               rounded(e.rival_inliers, 0) + ", matched " +
+               rounded(e.agreement.matched, 3) + ", contradicted " +
+               rounded(e.agreement.contradicted, 3) + ", rivals " +
+               rounded(e.rivals, 3) + ", hold " + rounded(e.hold, 3) + ")";
+      });
 }
 
 void
