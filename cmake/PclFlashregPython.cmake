@@ -43,7 +43,7 @@ if(NOT complaint)
   set(PCL_FLASHREG_PYTHON ON)
   message(STATUS "pcl_flashreg: Python module for ${Python3_EXECUTABLE}")
 elseif(PCL_FLASHREG_WITH_PYTHON STREQUAL "AUTO")
-  message(STATUS "pcl_flashreg: the Python module is left out: ${complaint}")
+  message(NOTICE "pcl_flashreg: the Python module is left out: ${complaint}")
 else()
   message(FATAL_ERROR
     "PCL_FLASHREG_WITH_PYTHON is ${PCL_FLASHREG_WITH_PYTHON}, but ${complaint}")

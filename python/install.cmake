@@ -18,6 +18,12 @@ if(NOT PCL_FLASHREG_PYTHON_DIR)
     set(system_folder lib/python3/dist-packages)
   endif()
 endif()
+if(BUILD_SHARED_LIBS)
+  file(RELATIVE_PATH libraries_from_module
+    /prefix/${folder}/pcl_flashreg /prefix/${CMAKE_INSTALL_LIBDIR})
+  set_target_properties(pcl_flashreg_python PROPERTIES
+    INSTALL_RPATH "\$ORIGIN/${libraries_from_module}")
+endif()
 # The prefix is known when it is installed: a package's is another one.
 install(CODE "
   set(PCL_FLASHREG_PYTHON_FOLDER ${folder})
