@@ -32,9 +32,9 @@ if(PCL_FLASHREG_PYTHON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-pcl-flashreg)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
-    "Global point cloud registration for Python
- Finds the rigid transform between two point clouds, NumPy arrays or files, with no
- initial guess, repeats itself to the last bit, and says whether to trust the answer.")
+    "Finds the rigid transform between two point clouds with no initial guess, repeats
+itself to the last bit, and says whether to trust the answer. Contains the Python module,
+which takes NumPy arrays and files, and needs no PCL.")
   # The compiled part is for one version of Python alone.
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
