@@ -32,16 +32,6 @@ shapeOf(const py::array& array)
   return array.ndim() == 1 ? "of length " + text : text.empty() ? "one number" : text;
 }
 
-/** \brief Whether numpy.asarray() takes it for what it is, and not for a list of things. */
-bool
-isArrayLike(py::handle object)
-{
-  return PyObject_CheckBuffer(object.ptr()) != 0 ||
-         py::hasattr(object, "__array_interface__") ||
-         py::hasattr(object, "__array__") || py::isinstance<py::list>(object) ||
-         py::isinstance<py::tuple>(object);
-}
-
 void
 requireFloats(const py::array& array, const char* name)
 {
@@ -90,6 +80,15 @@ isReadable(const py::array& table, RowLayout layout)
 
 } // namespace
 
+bool
+isArrayLike(py::handle object)
+{
+  return PyObject_CheckBuffer(object.ptr()) != 0 ||
+         py::hasattr(object, "__array_interface__") ||
+         py::hasattr(object, "__array__") || py::isinstance<py::list>(object) ||
+         py::isinstance<py::tuple>(object);
+}
+
 py::array
 arrayOf(py::handle object, const char* name)
 {
@@ -121,7 +120,7 @@ floatTable(py::handle object, const char* name, std::size_t columns)
     throw py::value_error(
         std::string(name) + ": is " + shapeOf(array) + ", but has to be N x " +
         (columns == 0 ? "D" : std::to_string(columns)) + adviceOn(array, columns));
-  return array;
+  return array.attr("view")();
 }
 
 bool

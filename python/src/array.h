@@ -34,6 +34,10 @@ struct Rows {
 /** \brief Whether rows may lie apart from each other. */
 enum class RowLayout { Strided, Packed };
 
+/** \brief Whether an object is an array, or says itself how to be one. */
+bool
+isArrayLike(py::handle object);
+
 /** \brief The array that an object is or offers: numpy arrays, the buffer protocol,
  * __array__, __array_interface__, DLPack, a method numpy(), lists. Nothing is copied where it
  * offers its memory.
@@ -41,7 +45,8 @@ enum class RowLayout { Strided, Packed };
 py::array
 arrayOf(py::handle object, const char* name);
 
-/** \brief arrayOf() of float32 or float64 in two dimensions.
+/** \brief arrayOf() of float32 or float64 in two dimensions, as a view of its own: somebody may
+ * give the array another shape.
  * \param[in] columns how many there have to be; 0 for any number, but one at least */
 py::array
 floatTable(py::handle object, const char* name, std::size_t columns);

@@ -139,7 +139,7 @@ cloudOf(py::handle object, const char* name)
   if (py::isinstance<py::str>(object) || py::hasattr(object, "__fspath__"))
     return readCloud(object, 0);
   py::object points = py::reinterpret_borrow<py::object>(object);
-  if (!py::isinstance<py::array>(object) && py::hasattr(object, "points"))
+  if (!isArrayLike(object) && py::hasattr(object, "points"))
     points = object.attr("points");
   return Cloud(points, py::none(), py::none(), py::make_tuple(0, 0, 0), false, name);
 }
@@ -195,7 +195,9 @@ Raises:
            "viewpoint"_a = py::make_tuple(0, 0, 0),
            "many_viewpoints"_a = false)
       .def_property_readonly(
-          "points", &Cloud::points, "The array that was given, N x 3.")
+          "points",
+          [](const Cloud& cloud) { return cloud.points().attr("view")(); },
+          "A view of the array that was given, N x 3.")
       .def_property_readonly(
           "normals",
           [](const Cloud& cloud) { return arrayOrNone(cloud.normals()); },

@@ -146,8 +146,18 @@ def test_clouds_look_at_the_callers_memory(form):
     points = form(SOURCE)
     cloud = pcl_flashreg.Cloud(points)
     if isinstance(points, np.ndarray):
-        assert cloud.points is points
+        assert np.shares_memory(cloud.points, points)
     assert np.array_equal(cloud.points, SOURCE)
+
+
+def test_arrays_that_get_another_shape():
+    points = SOURCE.copy()
+    cloud = pcl_flashreg.Cloud(points)
+    points.shape = (100, 6)
+    cloud.points.shape = (600, 1)
+    assert cloud.points.shape == (200, 3) and len(cloud) == 200
+    scan = pcl_flashreg.PairRegistration(1).make_scan(cloud, 0.2, descriptors=False)
+    assert np.array_equal(scan.points, pcl_flashreg.compute_features(SOURCE, 0.2).points)
 
 
 def test_large_arrays_are_not_copied():
