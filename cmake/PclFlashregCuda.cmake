@@ -57,6 +57,7 @@ set(PCL_FLASHREG_CUDA_KERNELS
   cuda/estimation/second_order_graph_bounded.cu
   cuda/estimation/verification.cu)
 set(PCL_FLASHREG_CUDA_HOST
+  cuda/estimation/caller_memory.cpp
   cuda/estimation/cuda_backend.cpp
   cuda/support/error.cpp
   cuda/estimation/stages.cpp

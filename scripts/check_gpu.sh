@@ -95,11 +95,38 @@ if [[ -z $device ]]; then
 fi
 commit=$(git -C "$root" describe --always --dirty 2>/dev/null || echo unknown)
 
+# figures NAME: what a step wrote that ran just now, or null.
+figures() {
+  if [[ -s $out/$1.json && "${results[*]}" == *"\"$1\": "* ]]; then
+    cat "$out/$1.json"
+  else
+    echo null
+  fi
+}
+# report: writes check_gpu.json, after every step: a run that is cut off has not been in vain.
+report() {
+  {
+    echo "{"
+    echo "  \"device\": \"$device\","
+    echo "  \"driver\": \"$driver\","
+    echo "  \"compute_capability\": \"$capability\","
+    echo "  \"cuda\": \"$(nvcc --version | sed -n 's/.*, V//p')\","
+    echo "  \"commit\": \"$commit\","
+    echo "  \"checks\": {"
+    (IFS=$'\n' && echo "${results[*]}" | sed '$!s/$/,/')
+    echo "  }"
+    for step in benchmark kitti ablation turboreg turboreg_kitti; do
+      echo "  ,\"$step\": $(figures "$step")"
+    done
+    echo "}"
+  } >"$out/check_gpu.json"
+}
+
 # check NAME COMMAND...: runs a step, its output in OUT/NAME.log, and notes how it ended.
 failed=0
 results=()
 check() {
-  local name=$1 outcome=passed
+  local name=$1 outcome=passed began=$SECONDS
   shift
   if [[ $steps != "  " && $steps != *" $name "* ]]; then
     return
@@ -113,11 +140,12 @@ check() {
   elif grep -q "SKIPPED" "$out/$name.log"; then
     outcome="passed, with tests skipped"
   fi
-  echo "$name: $outcome"
+  echo "$name: $outcome, $((SECONDS - began)) s"
   if [[ -s $out/$name.json ]]; then
     cat "$out/$name.log"
   fi
   results+=("    \"$name\": \"$outcome\"")
+  report
 }
 
 export PCL_FLASHREG_DATASETS=$datasets
@@ -152,28 +180,5 @@ if [[ -n $turboreg ]]; then
   fi
 fi
 
-# figures NAME: what a step wrote that ran just now, or null.
-figures() {
-  if [[ -s $out/$1.json && "${results[*]}" == *"\"$1\": "* ]]; then
-    cat "$out/$1.json"
-  else
-    echo null
-  fi
-}
-{
-  echo "{"
-  echo "  \"device\": \"$device\","
-  echo "  \"driver\": \"$driver\","
-  echo "  \"compute_capability\": \"$capability\","
-  echo "  \"cuda\": \"$(nvcc --version | sed -n 's/.*, V//p')\","
-  echo "  \"commit\": \"$commit\","
-  echo "  \"checks\": {"
-  (IFS=$'\n' && echo "${results[*]}" | sed '$!s/$/,/')
-  echo "  }"
-  for step in benchmark kitti ablation turboreg turboreg_kitti; do
-    echo "  ,\"$step\": $(figures "$step")"
-  done
-  echo "}"
-} >"$out/check_gpu.json"
 echo "figures: $out/check_gpu.json"
 exit "$failed"

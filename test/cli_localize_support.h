@@ -74,7 +74,7 @@ protected:
     io::writeCloud(path(name), cloudOf(hall().scans[number]));
   }
 
-  /** \brief As scans/scan_<number>.pcd. */
+  /** \brief As scans/scan_N.pcd. */
   void
   writeScans(std::size_t from, std::size_t to) const
   {

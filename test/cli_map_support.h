@@ -60,7 +60,7 @@ protected:
     return runProgram(PCL_FLASHREG_MAP, arguments, launcher);
   }
 
-  /** \brief Scans from a number on as scans/scan_<number>.pcd. */
+  /** \brief Scans from a number on as scans/scan_N.pcd. */
   void
   writeScans(std::size_t from, std::size_t to) const
   {

@@ -31,7 +31,8 @@ const std::string SMALL = "--sizes 60,130 --inlier-ratios 0.3 --runs 2 ";
 TEST_F(Benchmark, TimesADevice)
 {
   const ProgramRun run = benchmark(
-      SMALL + "--backend cuda --streams 1,3 --energy-seconds 0.01 --json out.json");
+      SMALL +
+      "--backend cuda --side-by-side 1,3 --energy-seconds 0.01 --json out.json");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find("emulated device"), std::string::npos) << run.out;
   const auto json = nlohmann::json::parse(read("out.json"));
@@ -60,9 +61,9 @@ TEST_F(Benchmark, TimesADevice)
     EXPECT_GT(device.at("resident_ms").at("median"), 0);
     EXPECT_LE(device.at("resident_ms").at("p10"), device.at("resident_ms").at("p90"));
     EXPECT_GT(device.at("memory_bytes"), 1000);
-    ASSERT_EQ(device.at("throughput").size(), 2u);
-    EXPECT_EQ(device.at("throughput")[1].at("streams"), 3);
-    EXPECT_GT(device.at("throughput")[1].at("pairs_per_second"), 0);
+    ASSERT_EQ(m.at("throughput").size(), 2u);
+    EXPECT_EQ(m.at("throughput")[1].at("side_by_side"), 3);
+    EXPECT_GT(m.at("throughput")[1].at("pairs_per_second"), 0);
     EXPECT_TRUE(device.contains("energy_mj"));
     const auto& floor = device.at("work").at("floor_ms");
     EXPECT_GT(floor.at("first_order_graph"), 0);
@@ -91,7 +92,8 @@ TEST_F(Benchmark, TimesTheAblation)
 
 TEST_F(Benchmark, TimesTheCpu)
 {
-  const ProgramRun run = benchmark(SMALL + "--backend cpu --json out.json");
+  const ProgramRun run =
+      benchmark(SMALL + "--backend cpu --side-by-side 2 --json out.json");
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(read("out.json"));
   EXPECT_EQ(json.at("device"), nullptr);
@@ -99,6 +101,7 @@ TEST_F(Benchmark, TimesTheCpu)
   for (const auto& m : json.at("measurements")) {
     EXPECT_GT(m.at("timings_ms").at("total").at("median"), 0);
     EXPECT_FALSE(m.contains("device"));
+    EXPECT_GT(m.at("throughput").at(0).at("pairs_per_second"), 0);
   }
 }
 

@@ -159,7 +159,7 @@ TEST(CudaAblation, EveryStageHasATimeAndEveryRowTheSameInliers)
   Problem problem;
   pack(named, problem);
   const std::vector<AblationMeasurement> rows =
-      measureAblation(problem, named.parameters, 1);
+      measureAblation(problem, named.parameters, {1});
   ASSERT_EQ(rows.size(), ablationRows().size());
   for (const AblationMeasurement& m : rows) {
     EXPECT_EQ(m.inliers, rows.front().inliers) << m.row.name;

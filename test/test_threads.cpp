@@ -76,6 +76,17 @@ TEST(Threads, ShareTheStagesOfAnEstimate)
 }
 
 /** \brief Objects of their own, made at the same time, on scans that all of them use. */
+TEST(Threads, ShareABatch)
+{
+  PairRegistration alone(BackendKind::Cpu, 1), together(BackendKind::Cpu, THREADS);
+  const Scan source = alone.makeScan(room().sourceInput(), V);
+  const Scan target = alone.makeScan(room().targetInput(), V);
+  const Result expected = alone.align(source, target).pose;
+  for (const PairResult& found :
+       together.alignBatch(std::vector<PairOfScans>(5, {source, target})))
+    EXPECT_TRUE(same(expected, found.pose));
+}
+
 TEST(Threads, UseOneScan)
 {
   PairRegistration maker(BackendKind::Cpu, 1);

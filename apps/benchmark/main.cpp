@@ -40,45 +40,70 @@ start(const Options& options)
   return setting;
 }
 
-std::vector<Measurement>
+Measurement
+measureOne(const Setting& setting,
+           const Options& options,
+           const NamedProblem& problem,
+           const std::string& second_order)
+{
+  const Parameters parameters = parametersOf(options, second_order);
+  Measurement measurement = measure(problem.name,
+                                    problem.view(),
+                                    parameters,
+                                    kindOf(options.backend),
+                                    options.threads,
+                                    options.repetition);
+  for (const unsigned side_by_side : options.side_by_side)
+    measurement.throughput.push_back(measureThroughput(problem.view(),
+                                                       parameters,
+                                                       kindOf(options.backend),
+                                                       side_by_side,
+                                                       options.repetition));
+  if (!setting.device.empty())
+    measurement.device = measureOnDevice(
+        problem.view(), parameters, {options.repetition, options.energy_seconds});
+  return measurement;
+}
+
+NamedAblation
+ablate(const Options& options, const NamedProblem& named)
+{
+  const Parameters parameters = parametersOf(options, "auto");
+  Problem problem;
+  prepare(named.view(), parameters, problem);
+  return {named.name,
+          problem.size,
+          measureAblation(problem, parameters, options.repetition)};
+}
+
+/** \brief Prints and writes what there is after every problem, so that a run that is cut off
+ * has not been in vain. */
+void
 measureAll(const Setting& setting,
            const Options& options,
            const std::vector<NamedProblem>& problems)
 {
-  std::vector<Measurement> all;
-  printHeader();
-  for (const NamedProblem& problem : problems)
-    for (const std::string& second_order : options.second_order) {
-      const Parameters parameters = parametersOf(options, second_order);
-      all.push_back(measure(problem.name,
-                            problem.view(),
-                            parameters,
-                            kindOf(options.backend),
-                            options.threads,
-                            options.runs));
-      if (!setting.device.empty())
-        all.back().device =
-            measureOnDevice(problem.view(),
-                            parameters,
-                            {options.runs, options.streams, options.energy_seconds});
-      print(all.back(), setting.ceilings);
+  Figures figures;
+  const auto save = [&] {
+    if (!options.json.empty())
+      io::writeFile(options.json, toJson(setting, options, figures));
+  };
+  if (!options.ablation)
+    printHeader();
+  for (const NamedProblem& problem : problems) {
+    if (options.ablation) {
+      figures.ablations.push_back(ablate(options, problem));
+      print(figures.ablations.back());
+      save();
+      continue;
     }
-  return all;
-}
-
-std::vector<NamedAblation>
-measureAblations(const Options& options, const std::vector<NamedProblem>& problems)
-{
-  std::vector<NamedAblation> all;
-  for (const NamedProblem& named : problems) {
-    const Parameters parameters = parametersOf(options, "auto");
-    Problem problem;
-    prepare(named.view(), parameters, problem);
-    all.push_back(
-        {named.name, problem.size, measureAblation(problem, parameters, options.runs)});
-    print(all.back());
+    for (const std::string& second_order : options.second_order) {
+      figures.measurements.push_back(
+          measureOne(setting, options, problem, second_order));
+      print(figures.measurements.back(), setting.ceilings);
+      save();
+    }
   }
-  return all;
 }
 
 void
@@ -94,13 +119,7 @@ run(Options options)
     return;
   }
   printSetting(setting);
-  Figures figures;
-  if (options.ablation)
-    figures.ablations = measureAblations(options, problems);
-  else
-    figures.measurements = measureAll(setting, options, problems);
-  if (!options.json.empty())
-    io::writeFile(options.json, toJson(setting, options, figures));
+  measureAll(setting, options, problems);
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 
 #include "measurement.h"
 
+#include <algorithm>
+
 namespace pcl_flashreg::benchmark {
 
 Measurement
@@ -11,7 +13,7 @@ measure(const std::string& name,
         const Parameters& parameters,
         BackendKind backend,
         unsigned threads,
-        int runs)
+        const Repetition& repetition)
 {
   Measurement measurement;
   measurement.name = name;
@@ -23,12 +25,34 @@ measure(const std::string& name,
     estimator.estimate(correspondences, parameters);
 
   std::vector<StageTimings> timings;
-  for (int i = 0; i < runs; ++i)
+  const detail::Stopwatch stopwatch;
+  for (int i = 0; !repetition.isOver(i, stopwatch); ++i)
     timings.push_back(estimator.estimate(correspondences, parameters).timings_ms);
   for (std::size_t s = 0; s < STAGES.size(); ++s)
     measurement.stages[s] = spreadOf(timings, STAGES[s].milliseconds);
   measurement.total = spreadOf(timings, &StageTimings::total);
   return measurement;
+}
+
+Throughput
+measureThroughput(const CorrespondenceView<double>& correspondences,
+                  const Parameters& parameters,
+                  BackendKind backend,
+                  unsigned side_by_side,
+                  const Repetition& repetition)
+{
+  // So many rounds that nobody waits for the last one for long.
+  constexpr int ROUNDS = 8;
+  const std::vector<CorrespondenceView<double>> batch(
+      static_cast<std::size_t>(std::min(ROUNDS, repetition.runs)) * side_by_side,
+      correspondences);
+  Estimator estimator(backend, side_by_side);
+  estimator.estimateBatch(batch, parameters);
+  const detail::Stopwatch stopwatch;
+  int done = 0;
+  for (; !repetition.isOver(done, stopwatch); done += static_cast<int>(batch.size()))
+    estimator.estimateBatch(batch, parameters);
+  return {side_by_side, 1e3 * done / stopwatch.milliseconds()};
 }
 
 } // namespace pcl_flashreg::benchmark

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "device/device_figures.h"
+#include "repetition.h"
 #include "spread.h"
 
 #include <pcl_flashreg/estimator.h>
@@ -14,6 +15,14 @@
 #include <vector>
 
 namespace pcl_flashreg::benchmark {
+
+/** \brief Whole calls, from correspondences in host memory to the verdict there, in batches of
+ * a problem over and over. */
+struct Throughput {
+  /** \brief How many are worked on at a time. */
+  unsigned side_by_side = 1;
+  double pairs_per_second = 0;
+};
 
 /** \brief One problem, timed. */
 struct Measurement {
@@ -27,11 +36,12 @@ struct Measurement {
    * host's. */
   std::array<Spread, STAGES.size()> stages;
   Spread total;
+  std::vector<Throughput> throughput;
   std::optional<DeviceFigures> device;
 };
 
 /** \brief Times the estimation from correspondences to pose.
- * \param[in] runs warm calls that are counted
+ * \param[in] repetition of the warm calls
  */
 Measurement
 measure(const std::string& name,
@@ -39,6 +49,13 @@ measure(const std::string& name,
         const Parameters& parameters,
         BackendKind backend,
         unsigned threads,
-        int runs);
+        const Repetition& repetition);
+
+Throughput
+measureThroughput(const CorrespondenceView<double>& correspondences,
+                  const Parameters& parameters,
+                  BackendKind backend,
+                  unsigned side_by_side,
+                  const Repetition& repetition);
 
 } // namespace pcl_flashreg::benchmark

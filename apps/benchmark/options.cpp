@@ -37,12 +37,6 @@ declareProblems(CLI::App& app, Options& options)
 void
 declareDevice(CLI::App& app, Options& options)
 {
-  app.add_option("--streams",
-                 options.streams,
-                 "numbers of estimators that work side by side on the device")
-      ->delimiter(',')
-      ->check(CLI::Range(1u, 256u))
-      ->capture_default_str();
   app.add_option("--energy-seconds",
                  options.energy_seconds,
                  "length of the run that energy is measured over; 0: not at all")
@@ -70,9 +64,21 @@ declareOptions(CLI::App& app, Options& options)
   app.add_option("--threads", options.threads, "CPU threads; 0: all")
       ->capture_default_str();
   app.add_option("--runs",
-                 options.runs,
-                 "calls that are counted, a problem [50; on a device 200]")
+                 options.repetition.runs,
+                 "calls that are counted, a problem, at most [50; on a device 200]")
       ->check(CLI::PositiveNumber);
+  app.add_option("--seconds",
+                 options.repetition.seconds,
+                 "after which, and ten calls, no more are counted")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option(
+         "--side-by-side",
+         options.side_by_side,
+         "time batches, too, with so many problems at a time: threads, and on a "
+         "device streams [none; on a device 1,2,4,8]")
+      ->delimiter(',')
+      ->check(CLI::Range(1u, 256u));
   declareDevice(app, options);
   app.add_option("--json", options.json, "write the figures to this file, too");
 }
@@ -88,8 +94,10 @@ fillIn(Options& options, bool on_device)
   if (options.second_order.empty())
     options.second_order = on_device ? std::vector<std::string>{"exact", "bounded"}
                                      : std::vector<std::string>{"auto"};
-  if (options.runs == 0)
-    options.runs = on_device ? 200 : 50;
+  if (options.side_by_side.empty() && on_device)
+    options.side_by_side = {1, 2, 4, 8};
+  if (options.repetition.runs == 0)
+    options.repetition.runs = on_device ? 200 : 50;
 }
 
 Parameters

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "repetition.h"
+
 #include <pcl_flashreg/parameters.h>
 
 #include <CLI/CLI.hpp>
@@ -24,10 +26,11 @@ struct Options {
   std::vector<std::string> files;
   std::vector<std::string> second_order;
   unsigned threads = 0;
-  int runs = 0;
+  /** \brief No runs stand for the backend's default. */
+  Repetition repetition{0};
+  std::vector<unsigned> side_by_side;
 
   // On a device.
-  std::vector<unsigned> streams = {1, 2, 4, 8};
   double energy_seconds = 2;
   bool ablation = false;
 

@@ -21,14 +21,11 @@ formOf(const Measurement& m)
 void
 printDevice(const DeviceFigures& figures, const Ceilings& ceilings)
 {
-  std::printf("    resident %.3f (p10 %.3f, p90 %.3f) ms; %.1f MB; pairs a second",
+  std::printf("    resident %.3f (p10 %.3f, p90 %.3f) ms; %.1f MB",
               figures.resident_ms.median,
               figures.resident_ms.p10,
               figures.resident_ms.p90,
               1e-6 * static_cast<double>(figures.memory_bytes));
-  for (const Throughput& t : figures.throughput)
-    std::printf(
-        " %.0f (%u stream%s)", t.pairs_per_second, t.streams, t.streams > 1 ? "s" : "");
   if (figures.energy_mj)
     std::printf("; %.1f mJ a pair\n", *figures.energy_mj);
   else
@@ -76,13 +73,8 @@ toJson(const Spread& spread)
 nlohmann::json
 toJson(const DeviceFigures& figures, const Ceilings& ceilings)
 {
-  nlohmann::json throughput = nlohmann::json::array();
-  for (const Throughput& t : figures.throughput)
-    throughput.push_back(
-        {{"streams", t.streams}, {"pairs_per_second", t.pairs_per_second}});
   nlohmann::json json{{"resident_ms", toJson(figures.resident_ms)},
                       {"memory_bytes", figures.memory_bytes},
-                      {"throughput", throughput},
                       {"energy_mj", orNull(figures.energy_mj)},
                       {"work", nullptr}};
   if (figures.work)
@@ -97,13 +89,18 @@ toJson(const Measurement& m, const Ceilings& ceilings)
   for (std::size_t s = 0; s < STAGES.size(); ++s)
     stages[STAGES[s].name] = toJson(m.stages[s]);
   stages["total"] = toJson(m.total);
+  nlohmann::json throughput = nlohmann::json::array();
+  for (const Throughput& t : m.throughput)
+    throughput.push_back(
+        {{"side_by_side", t.side_by_side}, {"pairs_per_second", t.pairs_per_second}});
   nlohmann::json json{{"name", m.name},
                       {"correspondences", m.size},
                       {"inliers", m.result.inliers.size()},
                       {"converged", m.result.converged},
                       {"second_order", formOf(m)},
                       {"cold_ms", m.cold_ms},
-                      {"timings_ms", stages}};
+                      {"timings_ms", stages},
+                      {"throughput", throughput}};
   if (m.device)
     json["device"] = toJson(*m.device, ceilings);
   return json;
@@ -171,6 +168,12 @@ print(const Measurement& m, const Ceilings& ceilings)
               m.total.p10,
               m.total.p90,
               m.cold_ms);
+  if (!m.throughput.empty()) {
+    std::printf("    pairs a second:");
+    for (const Throughput& t : m.throughput)
+      std::printf(" %.0f (%u at a time)", t.pairs_per_second, t.side_by_side);
+    std::printf("\n");
+  }
   if (m.device)
     printDevice(*m.device, ceilings);
   std::fflush(stdout);
@@ -196,7 +199,8 @@ toJson(const Setting& setting, const Options& options, const Figures& figures)
                       {"commit", commit()},
                       {"build", buildType()},
                       {"compiler", __VERSION__},
-                      {"runs", options.runs},
+                      {"runs", options.repetition.runs},
+                      {"seconds", options.repetition.seconds},
                       {"measurements", nlohmann::json::array()},
                       {"ablations", nlohmann::json::array()}};
   if (!setting.device.empty()) {

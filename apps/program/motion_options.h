@@ -18,7 +18,7 @@ struct MotionWords {
   /** \brief "x,y,z", of all clouds, and of one alone. */
   std::optional<std::string> gravity, source_gravity, target_gravity;
   std::optional<float> max_tilt;
-  /** \brief What the program calls them: --gravity-<name>. */
+  /** \brief What the program calls them: --gravity-NAME. */
   std::string source_name = "source", target_name = "target";
 };
 

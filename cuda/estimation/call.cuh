@@ -127,7 +127,7 @@ struct Call {
   Rows upper;
   /** \brief What pivots are chosen from: the same in exact mode, else the pools. */
   Rows pool;
-  // Stage 3.
+  // Stage 3. Room for a multiple of 4.
   unsigned* tie_begin;
   /** \brief In the end sorted; see Pivot. */
   unsigned long long *pivot_keys, *pivot_keys_other;

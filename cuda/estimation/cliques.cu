@@ -20,19 +20,35 @@ namespace {
 
 constexpr unsigned WARPS = 4;
 
-/** \brief Where a column stands in an ascending row, or the row's length. */
-__device__ inline unsigned
-find(const unsigned* columns, unsigned length, unsigned column)
+/** \brief Columns of u's row that a lane searches v's row for at a time: a search is a chain of
+ * reads, and one chain alone would leave the lane waiting. */
+constexpr unsigned AHEAD = 4;
+
+/** \brief Where columns stand in an ascending row, or the row's length where they don't.
+ * \param[out] places lower bounds first: every step halves what is open, for all of them */
+__device__ inline void
+find(const unsigned* columns,
+     unsigned length,
+     const unsigned (&wanted)[AHEAD],
+     unsigned (&places)[AHEAD])
 {
-  unsigned low = 0, high = length;
-  while (low < high) {
-    const unsigned middle = low + (high - low) / 2;
-    if (columns[middle] < column)
-      low = middle + 1;
-    else
-      high = middle;
+#pragma unroll
+  for (unsigned k = 0; k < AHEAD; ++k)
+    places[k] = 0;
+  for (unsigned half = length == 0 ? 0 : 1u << (31 - __clz(static_cast<int>(length)));
+       half > 0;
+       half /= 2) {
+#pragma unroll
+    for (unsigned k = 0; k < AHEAD; ++k) {
+      const unsigned last = places[k] + half - 1;
+      if (last < length && columns[last] < wanted[k])
+        places[k] += half;
+    }
   }
-  return low < length && columns[low] == column ? low : length;
+#pragma unroll
+  for (unsigned k = 0; k < AHEAD; ++k)
+    if (places[k] < length && columns[places[k]] != wanted[k])
+      places[k] = length;
 }
 
 template <unsigned CAPACITY>
@@ -48,18 +64,23 @@ __launch_bounds__(WARPS* WARP) findCliques(const Call call)
   const Row u = call.upper.rows[pivot.u], v = call.upper.rows[pivot.v];
   const unsigned* columns_v = call.upper.columns + v.columns_begin;
   BestThird<CAPACITY> best;
-  for (unsigned a = laneIndex(); a < u.length; a += WARP) {
-    const unsigned w = call.upper.columns[u.columns_begin + a];
-    if (w <= pivot.v)
-      continue;
-    const unsigned b = find(columns_v, v.length, w);
-    if (b == v.length)
-      continue;
+  for (unsigned first = laneIndex(); first < u.length; first += AHEAD * WARP) {
+    unsigned columns[AHEAD], places[AHEAD];
+#pragma unroll
+    for (unsigned k = 0; k < AHEAD; ++k) {
+      const unsigned a = first + k * WARP;
+      // v's row has nothing up to v, and so not u.
+      columns[k] = a < u.length ? call.upper.columns[u.columns_begin + a] : pivot.u;
+    }
+    find(columns_v, v.length, columns, places);
     // Of the triangle (u, v, w) each corner votes for the opposite edge: in exact mode no
     // score is 0 here, and in bounded mode no row has such an entry.
-    best.offer(w,
-               pivot.score + call.upper.scores[u.scores_begin + a] +
-                   call.upper.scores[v.scores_begin + b]);
+#pragma unroll
+    for (unsigned k = 0; k < AHEAD; ++k)
+      if (places[k] < v.length)
+        best.offer(columns[k],
+                   pivot.score + call.upper.scores[u.scores_begin + first + k * WARP] +
+                       call.upper.scores[v.scores_begin + places[k]]);
   }
 
   const unsigned T = call.cliques_per_pivot;

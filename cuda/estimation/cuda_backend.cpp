@@ -3,8 +3,10 @@
 
 #include "cuda/estimation/cuda_backend.h"
 
+#include "cuda/estimation/caller_memory.h"
 #include "cuda/estimation/first_order_graph.cuh"
 #include "cuda/estimation/stages.h"
+#include "cuda/support/device.h"
 
 #include <pcl_flashreg/estimator.h>
 
@@ -50,14 +52,40 @@ usableDevice()
   return device;
 }
 
+Stages
+stagesOn(int device, const Options& options)
+{
+  return Stages(
+      options,
+      static_cast<unsigned>(attribute(cudaDevAttrMultiProcessorCount, device)),
+      attribute(cudaDevAttrCooperativeLaunch, device) != 0);
+}
+
 class CudaBackend : public Backend {
 public:
-  explicit CudaBackend(const Options& options) : stages_(makeStages(options)) {}
+  /** \param[in] device the calling thread's */
+  CudaBackend(int device, const Options& options)
+      : options_(options), device_(device), stages_(stagesOn(device, options))
+  {
+  }
 
   std::string
   name() const override
   {
     return "cuda";
+  }
+
+  std::unique_ptr<Backend>
+  another(ThreadPool&) const override
+  {
+    const CurrentDevice current(device_);
+    return std::make_unique<CudaBackend>(device_, options_);
+  }
+
+  bool
+  isOnDevice() const override
+  {
+    return true;
   }
 
   PoseEstimate
@@ -68,6 +96,7 @@ public:
       StageClock& clock,
       Trace* trace) override
   {
+    const CurrentDevice current(device_);
     try {
       return runPipeline(
           stages_, problem, parameters, guess, with_candidates, clock, trace);
@@ -79,8 +108,35 @@ public:
     }
   }
 
+  CorrespondenceView<float>
+  readBack(const DeviceCorrespondences& correspondences) override
+  {
+    const CurrentDevice current(device_);
+    return callerMemory().read(correspondences);
+  }
+
+  void
+  leavePose(const float T_target_source[16],
+            const DeviceCorrespondences& asked) override
+  {
+    const CurrentDevice current(device_);
+    callerMemory().leavePose(T_target_source, asked);
+  }
+
 private:
+  /** \brief Made when it is wanted: few callers have their own. */
+  CallerMemory&
+  callerMemory()
+  {
+    if (!caller_memory_)
+      caller_memory_.emplace();
+    return *caller_memory_;
+  }
+
+  Options options_;
+  int device_;
   Stages stages_;
+  std::optional<CallerMemory> caller_memory_;
 };
 
 } // namespace
@@ -88,17 +144,13 @@ private:
 std::unique_ptr<Backend>
 makeBackend(const Options& options)
 {
-  return std::make_unique<CudaBackend>(options);
+  return std::make_unique<CudaBackend>(usableDevice(), options);
 }
 
 Stages
 makeStages(const Options& options)
 {
-  const int device = usableDevice();
-  return Stages(
-      options,
-      static_cast<unsigned>(attribute(cudaDevAttrMultiProcessorCount, device)),
-      attribute(cudaDevAttrCooperativeLaunch, device) != 0);
+  return stagesOn(usableDevice(), options);
 }
 
 } // namespace cuda

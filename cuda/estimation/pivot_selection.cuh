@@ -40,23 +40,43 @@ findCut(const Call& call, BlockScratch& scratch)
   }
 }
 
+/** \brief Ties of four rows; of those behind the last one none.
+ * \param[in] first a multiple of 4 */
+__device__ inline uint4
+tiesOfFour(const Call& call, unsigned first)
+{
+  if (first >= call.size)
+    return {0, 0, 0, 0};
+  uint4 ties = *reinterpret_cast<const uint4*>(call.tie_begin + first);
+  ties.y = first + 1 < call.size ? ties.y : 0;
+  ties.z = first + 2 < call.size ? ties.z : 0;
+  ties.w = first + 3 < call.size ? ties.w : 0;
+  return ties;
+}
+
 /** \brief Makes tie_begin, number of ties a row, into the number of ties in the rows
- * before; one block. */
+ * before; one block, which nobody else waits with: the next rows are on their way while
+ * these are added up. */
 __device__ inline void
 scanTies(const Call& call, BlockScratch& scratch)
 {
-  const unsigned run = (call.size + blockDim.x - 1) / blockDim.x;
-  const unsigned begin = min(call.size, threadIdx.x * run);
-  const unsigned end = min(call.size, begin + run);
-  unsigned sum = 0;
-  for (unsigned u = begin; u < end; ++u)
-    sum += call.tie_begin[u];
-  unsigned total = 0;
-  unsigned before = blockExclusiveScan(sum, scratch, total);
-  for (unsigned u = begin; u < end; ++u) {
-    const unsigned ties = call.tie_begin[u];
-    call.tie_begin[u] = before;
-    before += ties;
+  const unsigned step = 4 * blockDim.x;
+  unsigned before = 0;
+  uint4 next = tiesOfFour(call, 4 * threadIdx.x);
+  for (unsigned begin = 0; begin < call.size; begin += step) {
+    const unsigned first = begin + 4 * threadIdx.x;
+    const uint4 ties = next;
+    next = tiesOfFour(call, first + step);
+    unsigned total = 0;
+    uint4 sums;
+    sums.x =
+        before + blockExclusiveScan(ties.x + ties.y + ties.z + ties.w, scratch, total);
+    sums.y = sums.x + ties.x;
+    sums.z = sums.y + ties.y;
+    sums.w = sums.z + ties.z;
+    if (first < call.size)
+      *reinterpret_cast<uint4*>(call.tie_begin + first) = sums;
+    before += total;
   }
 }
 

@@ -24,7 +24,9 @@ namespace cuda {
 namespace {
 
 constexpr unsigned LIST_WARPS = 8;
-constexpr unsigned SCORE_WARPS = 4;
+/** \brief A block is through when its row is, and the rows of inliers have ten times as many
+ * edges as the others: so many warps that these don't outlast all else. */
+constexpr unsigned SCORE_WARPS = 8;
 
 /** \brief The bits of word w that stand for columns above u. */
 __device__ inline unsigned

@@ -67,7 +67,7 @@ Stages::begin(const Problem& problem,
   if (!options_.resident_points || !uploaded_)
     upload(problem);
   if (options_.stage_timings)
-    beginning_.record(stream_);
+    beginning_.record(stream_.get());
 }
 
 void
@@ -139,7 +139,7 @@ Stages::reserveHypotheses()
   const std::size_t size = call_.size;
   const std::size_t cliques = std::size_t{call_.pivots} * call_.cliques_per_pivot;
   row_best_.reserve(size);
-  tie_begin_.reserve(size);
+  tie_begin_.reserve(roundUp(size, 4));
   pivot_keys_.reserve(2 * std::size_t{call_.pivots});
   cliques_.reserve(cliques);
   clique_counts_.reserve(call_.pivots);
@@ -281,7 +281,7 @@ Stages::finish(double StageTimings::*stage)
   if (!options_.stage_timings)
     return;
   ended_[ended_count_] = stage;
-  ends_[ended_count_++].record(stream_);
+  ends_[ended_count_++].record(stream_.get());
 }
 
 /** \brief Waits for the device. Where stage 2 had not the form or the room that the input

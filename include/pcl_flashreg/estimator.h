@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl_flashreg/cloud_view.h>
+#include <pcl_flashreg/device_correspondences.h>
 #include <pcl_flashreg/parameters.h>
 #include <pcl_flashreg/result.h>
 
@@ -93,6 +94,29 @@ public:
            const Parameters& parameters = {},
            const std::optional<RigidTransform>& guess = std::nullopt,
            const CloudPairView<double>* clouds = nullptr);
+
+  /** \brief The same for correspondences on the device, in single precision: the result is the
+   * one that their copies in host memory have, to the last bit.
+   * \throws BackendError also if the backend is not CUDA */
+  Result
+  estimate(const DeviceCorrespondences& correspondences,
+           const Parameters& parameters = {},
+           const std::optional<RigidTransform>& guess = std::nullopt);
+
+  /** \brief Many problems side by side: on the CPU a thread each, on a device in streams of
+   * their own, of which there are as many as threads, eight at most.
+   * \param[in] problems neither their number nor their order tells in a result: each is that of
+   * estimate(), to the last bit, but for the times
+   * \return a result a problem
+   * \throws std::invalid_argument as estimate(), before anything is estimated
+   * \throws BackendError, std::bad_alloc if the machine fails; the object stays usable
+   */
+  std::vector<Result>
+  estimateBatch(const std::vector<CorrespondenceView<float>>& problems,
+                const Parameters& parameters = {});
+  std::vector<Result>
+  estimateBatch(const std::vector<CorrespondenceView<double>>& problems,
+                const Parameters& parameters = {});
 
   /** \brief For tests and diagnostics: where the next calls leave the output of every
    * stage; null (the default) for nowhere. See src/estimation/trace.h. */

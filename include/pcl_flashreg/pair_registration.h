@@ -150,6 +150,11 @@ struct PairResult {
   PairTimings timings;
 };
 
+/** \brief Two scans to be registered; a scan that is in many pairs is kept once. */
+struct PairOfScans {
+  Scan source, target;
+};
+
 /** \brief Registers two clouds, with no initial guess: the one way from points to a pose.
  *
  * Clouds become scans (keypoints, normals, descriptors), scans are matched, matches become
@@ -235,6 +240,14 @@ public:
   /** \brief The same result, sooner, where the target's index is there already. */
   PairResult
   align(const Scan& source, const ScanIndex& target, const PairOptions& options = {});
+
+  /** \brief Many pairs side by side, a thread each: neither their number nor their order tells in
+   * a result, each is that of align(), to the last bit, but for the times.
+   * \param[in] options of every pair; on_step is called by one thread at a time
+   * \return a result a pair
+   * \throws what align() throws, of one of the pairs that it happens to */
+  std::vector<PairResult>
+  alignBatch(const std::vector<PairOfScans>& pairs, const PairOptions& options = {});
 
   /** \brief From what match() returned to the pose. */
   PairResult

@@ -3,12 +3,14 @@
 
 #include "judgement/evidence.h"
 
-#include "math/residual.h"
+#include "estimation/cpu/residual_test.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace pcl_flashreg {
 namespace {
@@ -44,23 +46,29 @@ spreadOf(const Problem& problem, const std::vector<int>& rows)
 /** \brief Share of all pairs of a source and a target point that are inliers of the pose:
  * the chance that one is which is paired at random. From some of the sources. */
 double
-shareOfAllPairs(const Problem& problem, const Pose& pose, float inlier_distance)
+shareOfAllPairs(const Problem& problem,
+                const Pose& pose,
+                float inlier_distance,
+                ThreadPool& pool)
 {
-  constexpr std::size_t SOURCES = 128;
+  constexpr std::size_t SOURCES = 128, SOURCES_A_TASK = 8;
   const std::size_t looked_at = std::min(SOURCES, problem.size);
-  const float limit = inlier_distance * inlier_distance;
-  std::size_t near = 0;
-  for (std::size_t k = 0; k < looked_at; ++k) {
-    const Vec3 moved = transform(pose, problem.source(k * problem.size / looked_at));
-    const auto x = static_cast<float>(moved.x), y = static_cast<float>(moved.y),
-               z = static_cast<float>(moved.z);
-    for (std::size_t i = 0; i < problem.size; ++i) {
-      const float dx = problem.tx[i] - x, dy = problem.ty[i] - y,
-                  dz = problem.tz[i] - z;
-      near += (dx * dx + dy * dy) + dz * dz < limit ? 1 : 0;
+  const cpu::ResidualTest test(cpu::selectKernels(), problem, inlier_distance);
+  std::array<std::size_t, SOURCES / SOURCES_A_TASK> near{};
+  pool.forEach(near.size(), [&](std::size_t task, std::size_t) {
+    const std::size_t begin = task * SOURCES_A_TASK;
+    for (std::size_t k = begin; k < std::min(looked_at, begin + SOURCES_A_TASK); ++k) {
+      const Vec3 moved = transform(pose, problem.source(k * problem.size / looked_at));
+      // A motion that takes every source there has all targets near it for inliers.
+      const PoseF there{{},
+                        {static_cast<float>(moved.x),
+                         static_cast<float>(moved.y),
+                         static_cast<float>(moved.z)}};
+      near[task] += static_cast<std::size_t>(test.count(there));
     }
-  }
-  return static_cast<double>(near) /
+  });
+  return static_cast<double>(
+             std::accumulate(near.begin(), near.end(), std::size_t{0})) /
          (static_cast<double>(looked_at) * static_cast<double>(problem.size));
 }
 
@@ -98,12 +106,8 @@ logOfTail(double hits, double draws, double share)
 std::vector<int>
 inliersOf(const Problem& problem, const Pose& pose, float inlier_distance)
 {
-  const PoseF single = toSingle(pose);
-  std::vector<int> inliers;
-  for (std::size_t i = 0; i < problem.size; ++i)
-    if (squaredResidual(single, problem.pair(i)) < inlier_distance * inlier_distance)
-      inliers.push_back(static_cast<int>(i));
-  return inliers;
+  return cpu::ResidualTest(cpu::selectKernels(), problem, inlier_distance)
+      .rows(toSingle(pose));
 }
 
 std::int64_t
@@ -132,6 +136,7 @@ addCorrespondences(const Problem& problem,
                    const std::vector<int>& inliers,
                    int rival_inliers,
                    float inlier_distance,
+                   ThreadPool& pool,
                    Evidence& evidence)
 {
   evidence.inliers = static_cast<double>(inliers.size());
@@ -141,8 +146,8 @@ addCorrespondences(const Problem& problem,
   evidence.thickness = spread[0];
   evidence.breadth = spread[1];
   const auto draws = static_cast<double>(problem.size);
-  const double share =
-      std::max(shareOfAllPairs(problem, pose, inlier_distance), 1 / (draws * draws));
+  const double share = std::max(shareOfAllPairs(problem, pose, inlier_distance, pool),
+                                1 / (draws * draws));
   evidence.log_chance =
       logOfPoses(problem, inlier_distance) + logOfTail(evidence.inliers, draws, share);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "estimation/problem.h"
+#include "support/thread_pool.h"
 
 #include <pcl_flashreg/result.h>
 
@@ -30,6 +31,7 @@ addCorrespondences(const Problem& problem,
                    const std::vector<int>& inliers,
                    int rival_inliers,
                    float inlier_distance,
+                   ThreadPool& pool,
                    Evidence& evidence);
 
 } // namespace pcl_flashreg

@@ -3,14 +3,16 @@
 
 #include "judgement/mirror.h"
 
+#include "estimation/cpu/residual_test.h"
+#include "estimation/part.h"
 #include "judgement/evidence.h"
 #include "judgement/explained.h"
-#include "math/residual.h"
 #include "math/symmetric3.h"
 #include "math/triplet_alignment.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace pcl_flashreg {
@@ -63,17 +65,6 @@ reflectionOf(const Problem& problem, const Clique& clique, Pose& reflection)
   return true;
 }
 
-int
-countAsked(const Problem& problem, const PoseF& pose, float inlier_distance)
-{
-  const std::size_t asked = std::min(ASKED, problem.size);
-  const float limit = inlier_distance * inlier_distance;
-  int agreeing = 0;
-  for (std::size_t k = 0; k < asked; ++k)
-    agreeing += squaredResidual(pose, problem.pair(k * problem.size / asked)) < limit;
-  return agreeing;
-}
-
 /** \brief The reflection that explains most; none where all cliques are degenerate. */
 Explained
 bestReflection(const Problem& problem,
@@ -81,12 +72,16 @@ bestReflection(const Problem& problem,
                float inlier_distance,
                ThreadPool& pool)
 {
+  std::vector<std::size_t> all(problem.size);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Problem asked;
+  takeRows(problem, all, ASKED, asked);
+  const cpu::ResidualTest test(cpu::selectKernels(), asked, inlier_distance);
   std::vector<Pose> reflections(cliques.size());
   std::vector<std::pair<int, std::size_t>> ranked(cliques.size());
   pool.forEach(cliques.size(), [&](std::size_t c, std::size_t) {
     const bool valid = reflectionOf(problem, cliques[c], reflections[c]);
-    const int agreeing =
-        valid ? countAsked(problem, toSingle(reflections[c]), inlier_distance) : 0;
+    const int agreeing = valid ? test.count(toSingle(reflections[c])) : 0;
     ranked[c] = {-agreeing, c};
   });
   std::sort(ranked.begin(), ranked.end());

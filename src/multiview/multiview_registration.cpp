@@ -8,6 +8,8 @@
 #include "multiview/map_builder.h"
 #include "multiview/pair_choice.h"
 #include "multiview/relation.h"
+#include "registration/pair_call.h"
+#include "registration/side_by_side.h"
 
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
@@ -34,15 +36,16 @@ checkOptions(const MultiviewOptions& options)
 
 class MultiviewRegistration::Impl {
 public:
-  Impl(BackendKind backend, unsigned num_threads) : pool(num_threads)
+  Impl(BackendKind backend, unsigned num_threads)
+      : first(backend, num_threads),
+        pool(first.search.pool()),
+        pairs(first, pool, pool.size())
   {
-    for (std::size_t i = 0; i < pool.size(); ++i)
-      workers.emplace_back(backend, 1);
   }
 
-  ThreadPool pool;
-  /** \brief One a thread. */
-  std::vector<PairRegistration> workers;
+  PairWorkers first;
+  ThreadPool& pool;
+  SideBySide<PairWorkers> pairs;
 };
 
 MultiviewRegistration::MultiviewRegistration(BackendKind backend, unsigned num_threads)
@@ -76,12 +79,12 @@ MultiviewRegistration::relate(const ScanSource& scans,
   std::vector<ScanRelation> relations(pairs.size());
   std::mutex reporting;
   std::size_t done = 0;
-  impl_->pool.forEach(pairs.size(), [&](std::size_t i, std::size_t thread) {
+  impl_->pairs.forEach(pairs.size(), [&](PairWorkers& workers, std::size_t i) {
     const auto [target, source] = pairs[i];
     relations[i].target = target;
     relations[i].source = source;
     const Result result =
-        impl_->workers[thread].align(scans(source), scans(target), pair_options).pose;
+        alignScans(workers, scans(source), scans(target), pair_options).pose;
     relations[i].poses = posesOf(result);
     relations[i].overruled_viewpoints = result.evidence.overruled_viewpoints;
     if (options.on_relation) {

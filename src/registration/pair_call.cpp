@@ -249,4 +249,17 @@ PairCall::finish()
   return std::move(result_);
 }
 
+PairResult
+alignScans(PairWorkers& workers,
+           const Scan& source,
+           const Scan& target,
+           const PairOptions& options)
+{
+  PairCall call(workers, options);
+  call.takeScans(source, target);
+  call.match();
+  call.estimateFromMatches();
+  return call.finish();
+}
+
 } // namespace pcl_flashreg

@@ -91,4 +91,11 @@ private:
   detail::Stopwatch total_;
 };
 
+/** \brief All steps of two scans. */
+PairResult
+alignScans(PairWorkers& workers,
+           const Scan& source,
+           const Scan& target,
+           const PairOptions& options);
+
 } // namespace pcl_flashreg

@@ -7,8 +7,10 @@
 
 #include "registration/other_matches.h"
 #include "registration/pair_call.h"
+#include "registration/side_by_side.h"
 #include "scan/points.h"
 
+#include <mutex>
 #include <stdexcept>
 
 namespace pcl_flashreg {
@@ -27,7 +29,14 @@ checkBothOrNone(const FeatureView& source, const FeatureView& target)
 } // namespace
 
 class PairRegistration::Impl : public PairWorkers {
-  using PairWorkers::PairWorkers;
+public:
+  Impl(BackendKind backend, unsigned num_threads)
+      : PairWorkers(backend, num_threads),
+        batch(*this, search.pool(), search.pool().size())
+  {
+  }
+
+  SideBySide<PairWorkers> batch;
 };
 
 PairRegistration::PairRegistration(BackendKind backend, unsigned num_threads)
@@ -61,11 +70,25 @@ PairRegistration::align(const Scan& source,
                         const Scan& target,
                         const PairOptions& options)
 {
-  PairCall call(*impl_, options);
-  call.takeScans(source, target);
-  call.match();
-  call.estimateFromMatches();
-  return call.finish();
+  return alignScans(*impl_, source, target, options);
+}
+
+std::vector<PairResult>
+PairRegistration::alignBatch(const std::vector<PairOfScans>& pairs,
+                             const PairOptions& options)
+{
+  std::vector<PairResult> results(pairs.size());
+  std::mutex reporting;
+  PairOptions of_one = options;
+  if (options.on_step)
+    of_one.on_step = [&](const PairProgress& progress) {
+      const std::lock_guard lock(reporting);
+      options.on_step(progress);
+    };
+  impl_->batch.forEach(pairs.size(), [&](PairWorkers& workers, std::size_t i) {
+    results[i] = alignScans(workers, pairs[i].source, pairs[i].target, of_one);
+  });
+  return results;
 }
 
 PairResult

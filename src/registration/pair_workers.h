@@ -15,6 +15,12 @@ struct PairWorkers {
   {
   }
 
+  /** \brief Others, on the same device. */
+  PairWorkers(const PairWorkers& like, unsigned num_threads)
+      : search(like.search, num_threads), maker(search.pool())
+  {
+  }
+
   PoseSearch search;
   ScanMaker maker;
 };

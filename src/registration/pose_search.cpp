@@ -7,8 +7,9 @@
 #include "judgement/evidence.h"
 #include "judgement/mirror.h"
 #include "judgement/tilt.h"
+#include "estimation/check_correspondences.h"
 #include "estimation/information.h"
-#include "estimation/leftover.h"
+#include "estimation/part.h"
 #include "math/distinctness.h"
 #include "registration/choose_backend.h"
 
@@ -28,18 +29,6 @@ Eigen::Vector3d
 toEigen(const Vec3& v)
 {
   return {v.x, v.y, v.z};
-}
-
-template <typename Scalar>
-void
-checkInput(const CorrespondenceView<Scalar>& in)
-{
-  if (in.size > 0 && (!in.source_xyz || !in.target_xyz))
-    throw std::invalid_argument("correspondences: size is " + std::to_string(in.size) +
-                                ", but source_xyz or target_xyz is null");
-  if (in.size > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw std::invalid_argument("correspondences: size " + std::to_string(in.size) +
-                                " is out of range: it must fit an int");
 }
 
 /** \brief Hypotheses that the verdict needs to see: rivals for the correspondences, and
@@ -93,6 +82,11 @@ rivalInliers(const std::vector<ScoredPose>& hypotheses)
 
 PoseSearch::PoseSearch(BackendKind backend, unsigned num_threads)
     : pool_(num_threads), backend_(chooseBackend(backend, pool_))
+{
+}
+
+PoseSearch::PoseSearch(const PoseSearch& like, unsigned num_threads)
+    : pool_(num_threads), backend_(like.backend_->another(pool_))
 {
 }
 
@@ -261,7 +255,7 @@ void
 PoseSearch::fill(Result& result,
                  const PoseEstimate& estimate,
                  const CloudFindings& findings,
-                 const Parameters& parameters) const
+                 const Parameters& parameters)
 {
   result.status = estimate.status;
   result.second_order = estimate.second_order;
@@ -286,6 +280,7 @@ PoseSearch::fill(Result& result,
                      estimate.inliers,
                      rival,
                      parameters.inlier_distance,
+                     pool_,
                      result.evidence);
   // Of several looks, what all their correspondences say.
   if (result.evidence.has_clouds)
@@ -359,7 +354,7 @@ PoseSearch::run(const CorrespondenceView<Scalar>& correspondences,
                 const SecondLook& second_look)
 {
   parameters.validate();
-  checkInput(correspondences);
+  checkCorrespondences(correspondences);
   Result result;
   result.backend = backend_->name();
   StageClock clock(result.timings_ms);

@@ -81,6 +81,8 @@ class PoseSearch {
 public:
   /** \param[in] num_threads of a pool of its own */
   PoseSearch(BackendKind backend, unsigned num_threads);
+  /** \brief One more, on the same device. */
+  PoseSearch(const PoseSearch& like, unsigned num_threads);
 
   /** \brief As Estimator::estimate(); clouds are null where there are none.
    * \param[in] second_look what to go on with where the clouds leave the pose in doubt; empty
@@ -98,6 +100,23 @@ public:
   pool()
   {
     return pool_;
+  }
+
+  /** \brief See Backend. */
+  bool
+  isOnDevice() const
+  {
+    return backend_->isOnDevice();
+  }
+  CorrespondenceView<float>
+  readBack(const DeviceCorrespondences& correspondences)
+  {
+    return backend_->readBack(correspondences);
+  }
+  void
+  leavePose(const float T_target_source[16], const DeviceCorrespondences& asked)
+  {
+    backend_->leavePose(T_target_source, asked);
   }
 
   std::string
@@ -148,7 +167,7 @@ private:
   fill(Result& result,
        const PoseEstimate& estimate,
        const CloudFindings& findings,
-       const Parameters& parameters) const;
+       const Parameters& parameters);
 
   ThreadPool pool_;
   std::unique_ptr<Backend> backend_;

@@ -202,12 +202,18 @@ enum cudaError_t {
   cudaErrorInvalidValue = 1,
   cudaErrorMemoryAllocation = 2,
   cudaErrorNoDevice = 100,
+  cudaErrorInvalidDevice = 101,
   cudaErrorNoKernelImageForDevice = 209,
+  cudaErrorInvalidResourceHandle = 400,
   cudaErrorIllegalAddress = 700,
   cudaErrorLaunchOutOfResources = 701,
   cudaErrorLaunchFailure = 719
 };
-enum cudaMemcpyKind { cudaMemcpyHostToDevice = 1, cudaMemcpyDeviceToHost = 2 };
+enum cudaMemcpyKind {
+  cudaMemcpyHostToDevice = 1,
+  cudaMemcpyDeviceToHost = 2,
+  cudaMemcpyDefault = 4
+};
 enum cudaDeviceAttr {
   cudaDevAttrMultiProcessorCount = 16,
   cudaDevAttrComputeCapabilityMajor = 75,
@@ -222,7 +228,7 @@ struct cudaFuncAttributes {
   std::size_t sharedSizeBytes = 0;
 };
 constexpr unsigned cudaStreamNonBlocking = 1;
-constexpr unsigned cudaEventDefault = 0;
+constexpr unsigned cudaEventDefault = 0, cudaEventDisableTiming = 2;
 
 namespace cuda_emulation {
 struct Stream;
@@ -253,6 +259,8 @@ cudaError_t
 cudaGetDeviceCount(int* count);
 cudaError_t
 cudaGetDevice(int* device);
+cudaError_t
+cudaSetDevice(int device);
 cudaError_t
 cudaGetDeviceProperties(cudaDeviceProp* properties, int device);
 cudaError_t
@@ -291,6 +299,10 @@ cudaError_t
 cudaEventDestroy(cudaEvent_t event);
 cudaError_t
 cudaEventRecord(cudaEvent_t event, cudaStream_t stream);
+cudaError_t
+cudaEventSynchronize(cudaEvent_t event);
+cudaError_t
+cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned flags = 0);
 cudaError_t
 cudaEventElapsedTime(float* milliseconds, cudaEvent_t begin, cudaEvent_t end);
 

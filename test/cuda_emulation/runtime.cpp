@@ -18,11 +18,14 @@ namespace cuda_emulation {
 
 /** \brief Work that waits for the stream to be waited for. */
 struct Stream {
+  int device = 0;
   std::vector<std::function<cudaError_t()>> work;
 };
 
 struct Event {
   std::chrono::steady_clock::time_point time;
+  /** \brief That it was put into; null once it has happened. */
+  Stream* stream = nullptr;
 };
 
 namespace {
@@ -35,7 +38,9 @@ struct Runtime {
   Counters counters;
   std::string failure;
   std::map<void*, std::unique_ptr<GuardedMemory>> device_memory, pinned_memory;
-  std::set<Stream*> streams;
+  /** \brief The default stream is the first. */
+  Stream default_stream;
+  std::set<Stream*> streams{&default_stream};
   cudaError_t last = cudaSuccess;
 };
 
@@ -44,6 +49,15 @@ runtime()
 {
   static Runtime instance;
   return instance;
+}
+
+/** \brief The device of the calling thread. */
+thread_local int current_device = 0;
+
+Stream&
+streamOf(cudaStream_t stream)
+{
+  return stream ? *stream : runtime().default_stream;
 }
 
 std::lock_guard<std::recursive_mutex>
@@ -169,6 +183,8 @@ enqueueGrid(Stream* stream,
 {
   const auto guard = lock();
   const Device& d = device();
+  if (streamOf(stream).device != current_device)
+    return report(cudaErrorInvalidResourceHandle);
   if (grid.x == 0 || grid.y == 0 || grid.z == 0 || grid.y > 65535 || grid.z > 65535 ||
       block.x * block.y * block.z == 0 || block.x * block.y * block.z > 1024)
     return report(cudaErrorInvalidValue);
@@ -180,7 +196,7 @@ enqueueGrid(Stream* stream,
     return report(cudaErrorLaunchFailure);
   ++counters().launches;
   counters().cooperative_launches += at_once;
-  stream->work.push_back([=] {
+  streamOf(stream).work.push_back([=] {
     const char* failure = runGrid(grid, block, shared_bytes, at_once, body);
     if (failure) {
       runtime().failure = failure;
@@ -211,6 +227,10 @@ cudaGetErrorName(cudaError_t error)
     return "cudaErrorMemoryAllocation";
   case cudaErrorNoDevice:
     return "cudaErrorNoDevice";
+  case cudaErrorInvalidDevice:
+    return "cudaErrorInvalidDevice";
+  case cudaErrorInvalidResourceHandle:
+    return "cudaErrorInvalidResourceHandle";
   case cudaErrorNoKernelImageForDevice:
     return "cudaErrorNoKernelImageForDevice";
   case cudaErrorIllegalAddress:
@@ -248,8 +268,18 @@ cudaError_t
 cudaGetDevice(int* number)
 {
   const auto guard = lock();
-  *number = 0;
+  *number = current_device;
   return report(device().count > 0 ? cudaSuccess : cudaErrorNoDevice);
+}
+
+cudaError_t
+cudaSetDevice(int number)
+{
+  const auto guard = lock();
+  if (number < 0 || number >= device().count)
+    return report(cudaErrorInvalidDevice);
+  current_device = number;
+  return cudaSuccess;
 }
 
 cudaError_t
@@ -366,14 +396,16 @@ cudaMemcpyAsync(void* to,
 {
   const auto guard = lock();
   ++counters().copies;
-  const void* host = kind == cudaMemcpyHostToDevice ? from : to;
-  if (!isPinned(host)) {
+  const bool stays = kind == cudaMemcpyDefault
+                         ? isPinned(from) || isPinned(to)
+                         : isPinned(kind == cudaMemcpyHostToDevice ? from : to);
+  if (!stays) {
     // Memory that is not pinned is copied before the call returns.
-    const cudaError_t error = run(*stream);
+    const cudaError_t error = run(streamOf(stream));
     std::memcpy(to, from, bytes);
     return error;
   }
-  stream->work.push_back([=] {
+  streamOf(stream).work.push_back([=] {
     std::memcpy(to, from, bytes);
     return cudaSuccess;
   });
@@ -384,7 +416,7 @@ cudaError_t
 cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t stream)
 {
   const auto guard = lock();
-  stream->work.push_back([=] {
+  streamOf(stream).work.push_back([=] {
     std::memset(memory, value, bytes);
     return cudaSuccess;
   });
@@ -396,6 +428,7 @@ cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned)
 {
   const auto guard = lock();
   *stream = new Stream;
+  (*stream)->device = current_device;
   runtime().streams.insert(*stream);
   return cudaSuccess;
 }
@@ -415,7 +448,7 @@ cudaStreamSynchronize(cudaStream_t stream)
 {
   const auto guard = lock();
   ++counters().synchronisations;
-  return run(*stream);
+  return run(streamOf(stream));
 }
 
 cudaError_t
@@ -438,10 +471,31 @@ cudaError_t
 cudaEventRecord(cudaEvent_t event, cudaStream_t stream)
 {
   const auto guard = lock();
-  stream->work.push_back([event] {
+  if (streamOf(stream).device != current_device)
+    return report(cudaErrorInvalidResourceHandle);
+  event->stream = &streamOf(stream);
+  event->stream->work.push_back([event] {
     event->time = std::chrono::steady_clock::now();
+    event->stream = nullptr;
     return cudaSuccess;
   });
+  return cudaSuccess;
+}
+
+cudaError_t
+cudaEventSynchronize(cudaEvent_t event)
+{
+  const auto guard = lock();
+  ++counters().synchronisations;
+  return event->stream ? run(*event->stream) : cudaSuccess;
+}
+
+cudaError_t
+cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned)
+{
+  const auto guard = lock();
+  streamOf(stream).work.push_back(
+      [event] { return event->stream ? run(*event->stream) : cudaSuccess; });
   return cudaSuccess;
 }
 

@@ -14,13 +14,14 @@ AblationMeasurement
 measureRow(const AblationRow& row,
            const Problem& problem,
            const Parameters& parameters,
-           int runs)
+           const Repetition& repetition)
 {
   AblationMeasurement measurement;
   measurement.row = row;
   AblationStages stages(row);
   std::vector<StageTimings> timings;
-  for (int i = -WARM_UP_RUNS; i < runs; ++i) {
+  const detail::Stopwatch stopwatch;
+  for (int i = -WARM_UP_RUNS; !repetition.isOver(i, stopwatch); ++i) {
     StageTimings t;
     StageClock clock(t);
     const PoseEstimate estimate =
@@ -41,11 +42,13 @@ measureRow(const AblationRow& row,
 } // namespace
 
 std::vector<AblationMeasurement>
-measureAblation(const Problem& problem, const Parameters& parameters, int runs)
+measureAblation(const Problem& problem,
+                const Parameters& parameters,
+                const Repetition& repetition)
 {
   std::vector<AblationMeasurement> measurements;
   for (const AblationRow& row : ablationRows())
-    measurements.push_back(measureRow(row, problem, parameters, runs));
+    measurements.push_back(measureRow(row, problem, parameters, repetition));
   return measurements;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../repetition.h"
 #include "../spread.h"
 #include "ablation_row.h"
 #include "estimation/problem.h"
@@ -41,11 +42,13 @@ struct AblationMeasurement {
 };
 
 /** \brief Times every row of the ablation.
- * \param[in] runs calls that are counted, after some that are not
+ * \param[in] repetition of a row's calls, after some that are not counted
  * \throws BackendError if there is no device, or a row doesn't fit into its memory
  */
 std::vector<AblationMeasurement>
-measureAblation(const Problem& problem, const Parameters& parameters, int runs);
+measureAblation(const Problem& problem,
+                const Parameters& parameters,
+                const Repetition& repetition);
 
 /** \brief A table on the standard output, medians in milliseconds. */
 void

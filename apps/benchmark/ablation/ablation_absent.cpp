@@ -10,7 +10,7 @@
 namespace pcl_flashreg::benchmark {
 
 std::vector<AblationMeasurement>
-measureAblation(const Problem&, const Parameters&, int)
+measureAblation(const Problem&, const Parameters&, const Repetition&)
 {
   throw BackendError("--ablation: this benchmark was built without CUDA and cuBLAS");
 }

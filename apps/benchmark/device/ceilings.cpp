@@ -36,9 +36,9 @@ rateOf(cuda::Stream& stream, Run&& run)
   double best = 0;
   cuda::Event begin, end;
   for (int i = 0; i < REPETITIONS; ++i) {
-    begin.record(stream);
+    begin.record(stream.get());
     const double work = run();
-    end.record(stream);
+    end.record(stream.get());
     stream.synchronize();
     best = std::max(best, 1e3 * work / begin.millisecondsTo(end));
   }

@@ -12,7 +12,6 @@
 #include <pcl_flashreg/impl/stopwatch.hpp>
 
 #include <algorithm>
-#include <future>
 #include <memory>
 
 namespace pcl_flashreg::benchmark {
@@ -78,10 +77,11 @@ private:
 };
 
 Spread
-timeCalls(ResidentCall& call, int runs)
+timeCalls(ResidentCall& call, const Repetition& repetition)
 {
   std::vector<double> times;
-  for (int i = 0; i < runs; ++i) {
+  const Stopwatch all;
+  for (int i = 0; !repetition.isOver(i, all); ++i) {
     const Stopwatch stopwatch;
     call();
     times.push_back(stopwatch.milliseconds());
@@ -109,36 +109,6 @@ energyOf(ResidentCall& call, double seconds)
   return (*after - *before) / static_cast<double>(calls);
 }
 
-/** \brief A thread an estimator, which all begin when all are warm. */
-Throughput
-measureThroughput(const CorrespondenceView<double>& correspondences,
-                  const Parameters& parameters,
-                  unsigned streams,
-                  int runs)
-{
-  std::vector<Estimator> estimators;
-  for (unsigned s = 0; s < streams; ++s) {
-    estimators.emplace_back(BackendKind::Cuda, 1);
-    for (int i = 0; i < WARM_UP_RUNS; ++i)
-      estimators.back().estimate(correspondences, parameters);
-  }
-  std::promise<void> starting_shot;
-  const std::shared_future<void> start(starting_shot.get_future());
-  std::vector<std::future<void>> ends;
-  for (Estimator& estimator : estimators)
-    ends.push_back(std::async(std::launch::async, [&, start] {
-      start.wait();
-      for (int i = 0; i < runs; ++i)
-        estimator.estimate(correspondences, parameters);
-    }));
-  const Stopwatch stopwatch;
-  starting_shot.set_value();
-  for (std::future<void>& end : ends)
-    end.get();
-  return {streams,
-          1e3 * streams * static_cast<double>(runs) / stopwatch.milliseconds()};
-}
-
 } // namespace
 
 DeviceFigures
@@ -152,15 +122,12 @@ measureOnDevice(const CorrespondenceView<double>& correspondences,
     ResidentCall call(correspondences, parameters);
     for (int i = 0; i < WARM_UP_RUNS; ++i)
       call();
-    figures.resident_ms = timeCalls(call, effort.runs);
+    figures.resident_ms = timeCalls(call, effort.repetition);
     figures.memory_bytes = free - std::min(free, freeBytes());
     if (effort.energy_seconds > 0)
       figures.energy_mj = energyOf(call, effort.energy_seconds);
     figures.work = call.work();
   }
-  for (const unsigned streams : effort.streams)
-    figures.throughput.push_back(
-        measureThroughput(correspondences, parameters, streams, effort.runs));
   return figures;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../repetition.h"
 #include "../spread.h"
 #include "work.h"
 
@@ -11,15 +12,8 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace pcl_flashreg::benchmark {
-
-/** \brief Estimators that work side by side, each with its thread and its stream. */
-struct Throughput {
-  unsigned streams = 1;
-  double pairs_per_second = 0;
-};
 
 /** \brief What is measured on a device alone. */
 struct DeviceFigures {
@@ -29,8 +23,6 @@ struct DeviceFigures {
   /** \brief What one estimator takes of the device's memory, in the end, which is when it
    * takes most. */
   std::size_t memory_bytes = 0;
-  /** \brief From correspondences in host memory to the pose there. */
-  std::vector<Throughput> throughput;
   /** \brief Energy of the whole board a call, correspondences resident, idle power not
    * subtracted. Nothing where NVML can't tell. */
   std::optional<double> energy_mj;
@@ -40,8 +32,8 @@ struct DeviceFigures {
 
 /** \brief How much is measured. */
 struct DeviceEffort {
-  int runs = 200;
-  std::vector<unsigned> streams;
+  /** \brief Of the resident call. */
+  Repetition repetition;
   /** \brief 0: energy is not measured. */
   double energy_seconds = 0;
 };

@@ -25,6 +25,12 @@ public:
     return std::string("cpu-") + kernels_.name;
   }
 
+  std::unique_ptr<Backend>
+  another(ThreadPool& pool) const override
+  {
+    return std::make_unique<CpuBackend>(pool);
+  }
+
   PoseEstimate
   run(const Problem& problem,
       const Parameters& parameters,

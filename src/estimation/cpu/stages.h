@@ -6,6 +6,7 @@
 #include "support/aligned_buffer.h"
 #include "simd/kernels.h"
 #include "support/thread_pool.h"
+#include "estimation/cpu/residual_test.h"
 #include "estimation/pipeline.h"
 
 #include <cstddef>
@@ -110,21 +111,17 @@ private:
   cliquesBounded(const Edge& pivot, Clique* best) const;
 
   // verification.cpp
+  ResidualTest
+  residualTest() const
+  {
+    return {kernels_, *problem_, parameters_->inlier_distance};
+  }
   /** \brief Inliers of a pose as a bit set of problem_->padded_size bits.
    * \param[out] inliers, scratch both padded_size / 64 words
    * \return how many they are
    */
   int
   findInliers(const PoseF& pose, std::uint64_t* inliers, std::uint64_t* scratch) const;
-  ResidualInput
-  residualInput(const PoseF& pose) const;
-  /** \brief Turns sure and possible inliers into inliers, by the exact formula. */
-  int
-  decideInliers(const PoseF& pose,
-                std::size_t first_word,
-                std::size_t words,
-                std::uint64_t* sure,
-                const std::uint64_t* possible) const;
   std::int64_t
   scoreOf(const PoseF& pose,
           std::size_t first_word,

@@ -5,7 +5,18 @@
 
 #include "estimation/problem.h"
 
+#include <cstddef>
+#include <vector>
+
 namespace pcl_flashreg {
+
+/** \brief These rows, at most `most` of them, spread evenly over their numbers; all else as in
+ * the whole. */
+void
+takeRows(const Problem& problem,
+         const std::vector<std::size_t>& rows,
+         std::size_t most,
+         Problem& part);
 
 /** \brief What a pose leaves unexplained: the rows whose residuals are not below this limit,
  * at most `most` of them, spread evenly over their numbers.
