@@ -104,6 +104,21 @@ applyParameters(py::handle parameters, PairOptions& options)
   values.min_confidence = fields.get<float>("min_confidence");
 }
 
+PairOptions
+optionsOf(const std::optional<double>& resolution,
+          py::handle parameters,
+          py::handle guess,
+          bool cloud_check)
+{
+  PairOptions options;
+  options.resolution = resolution;
+  applyParameters(parameters, options);
+  if (!guess.is_none())
+    options.guess = transformOf(guess, "guess");
+  options.cloud_check = cloud_check;
+  return options;
+}
+
 void
 applyMatching(std::size_t neighbors, bool mutual, PairOptions& options)
 {

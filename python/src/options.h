@@ -16,6 +16,13 @@ namespace pcl_flashreg::python {
 void
 applyParameters(pybind11::handle parameters, PairOptions& options);
 
+/** \brief PairOptions as far as all calls have them in common. */
+PairOptions
+optionsOf(const std::optional<double>& resolution,
+          pybind11::handle parameters,
+          pybind11::handle guess,
+          bool cloud_check);
+
 /** \brief How matches are made.
  * \throws ValueError if there are to be none */
 void

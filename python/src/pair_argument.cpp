@@ -56,4 +56,13 @@ PairArgument::scanMaker(ScanContent content) const
   return [scan](PairRegistration&, double) { return scan; };
 }
 
+double
+resolutionBeside(const PairArgument& source,
+                 const PairArgument& target,
+                 const PairOptions& options)
+{
+  const double of_scan = target.spacing() ? *target.spacing() : *source.spacing();
+  return options.resolution.value_or(of_scan);
+}
+
 } // namespace pcl_flashreg::python

@@ -57,4 +57,10 @@ private:
   std::optional<ScanIndex> index_;
 };
 
+/** \brief The voxel size for a cloud that is registered with a scan. */
+double
+resolutionBeside(const PairArgument& source,
+                 const PairArgument& target,
+                 const PairOptions& options);
+
 } // namespace pcl_flashreg::python

@@ -6,6 +6,7 @@
 #include "choice.h"
 #include "options.h"
 #include "pair_argument.h"
+#include "pair_object.h"
 #include "result.h"
 
 #include <pybind11/stl.h>
@@ -14,51 +15,6 @@ namespace pcl_flashreg::python {
 namespace {
 
 using namespace py::literals;
-
-/** \brief A PairRegistration that knows whether it is at work. */
-struct Registration {
-  Registration(const std::string& backend, unsigned threads)
-      : registration(choose(BACKENDS, backend, "backend"), threads)
-  {
-  }
-
-  Turn
-  turn()
-  {
-    return {busy, "PairRegistration"};
-  }
-
-  PairRegistration registration;
-  std::atomic<bool> busy{false};
-};
-
-/** \brief PairOptions as far as all calls have them in common. */
-PairOptions
-optionsOf(const std::optional<double>& resolution,
-          py::handle parameters,
-          py::handle guess,
-          bool cloud_check)
-{
-  PairOptions options;
-  options.resolution = resolution;
-  applyParameters(parameters, options);
-  if (!guess.is_none())
-    options.guess = transformOf(guess, "guess");
-  options.cloud_check = cloud_check;
-  return options;
-}
-
-/** \brief Runs a registration that is left before its next step once nobody waits. */
-template <typename Align>
-PairResult
-run(PairOptions options, const Align& align)
-{
-  return compute([&](const Cancellation& cancellation) {
-    options.on_step = [&](const PairProgress&) { cancellation.check(); };
-    PairResult result = align(options);
-    return result;
-  });
-}
 
 template <typename Scalar>
 PairResult
@@ -71,16 +27,6 @@ alignClouds(PairRegistration& registration,
   return run(options, [&](const PairOptions& each) {
     return registration.align(from.input, to.input, each);
   });
-}
-
-/** \brief The voxel size for a cloud that is registered with a scan. */
-double
-resolutionBeside(const PairArgument& source,
-                 const PairArgument& target,
-                 const PairOptions& options)
-{
-  const double of_scan = target.spacing() ? *target.spacing() : *source.spacing();
-  return options.resolution.value_or(of_scan);
 }
 
 PairResult
@@ -103,7 +49,7 @@ alignScans(PairRegistration& registration,
 }
 
 PairResult
-align(Registration& self,
+align(PairObject& self,
       py::handle source,
       py::handle target,
       const std::optional<double>& resolution,
@@ -130,125 +76,8 @@ align(Registration& self,
   return alignClouds<float>(self.registration, from, to, options);
 }
 
-/** \brief Correspondences of the caller's, and the arrays that they are in. */
-template <typename Scalar>
-struct Pairs {
-  Pairs(const py::array& source_points,
-        const py::array& target_points,
-        const std::optional<Rows<float>>& given_ranks)
-      : source(rowsOf<Scalar>(source_points, RowLayout::Packed)),
-        target(rowsOf<Scalar>(target_points, RowLayout::Packed)),
-        ranks(given_ranks)
-  {
-  }
-
-  CorrespondenceView<Scalar>
-  view() const
-  {
-    return {source.data, target.data, source.size, ranks ? ranks->data : nullptr};
-  }
-
-  Rows<Scalar> source, target;
-  std::optional<Rows<float>> ranks;
-};
-
-/** \brief The clouds that correspondences lie in, or none of both. */
-struct PairClouds {
-  PairClouds(py::handle from, py::handle to)
-  {
-    if (from.is_none() != to.is_none())
-      throw py::value_error(std::string(from.is_none() ? "source" : "target") +
-                            ": is None, and the other cloud is not; give both or none");
-    if (from.is_none())
-      return;
-    source.emplace(from, "source");
-    target.emplace(to, "target");
-  }
-
-  bool
-  hasScan() const
-  {
-    return source && !(source->cloud() && target->cloud());
-  }
-
-  std::optional<PairArgument> source, target;
-};
-
-template <typename Scalar>
-PairResult
-estimate(PairRegistration& registration,
-         const Pairs<Scalar>& pairs,
-         const PairClouds& clouds,
-         const PairOptions& options)
-{
-  std::optional<CloudInput<Scalar>> from, to;
-  if (clouds.source) {
-    from.emplace(*clouds.source->cloud());
-    to.emplace(*clouds.target->cloud());
-  }
-  const ScanInput<Scalar> none;
-  return run(options, [&](const PairOptions& each) {
-    return registration.align(
-        from ? from->input : none, to ? to->input : none, pairs.view(), each);
-  });
-}
-
-PairResult
-estimateWithScans(PairRegistration& registration,
-                  const Pairs<double>& pairs,
-                  const PairClouds& clouds,
-                  const PairOptions& options)
-{
-  const double resolution = resolutionBeside(*clouds.source, *clouds.target, options);
-  const auto from = clouds.source->scanMaker(ScanContent::Surface);
-  const auto to = clouds.target->scanMaker(ScanContent::Surface);
-  return run(options, [&](const PairOptions& each) {
-    return registration.align(from(registration, resolution),
-                              to(registration, resolution),
-                              pairs.view(),
-                              each);
-  });
-}
-
-PairResult
-estimatePose(Registration& self,
-             py::handle source_points,
-             py::handle target_points,
-             const std::optional<double>& resolution,
-             py::handle ranks,
-             py::handle source,
-             py::handle target,
-             py::handle parameters,
-             py::handle guess,
-             bool cloud_check)
-{
-  const Turn turn = self.turn();
-  const PairOptions options = optionsOf(resolution, parameters, guess, cloud_check);
-  const py::array from = floatTable(source_points, "source_points", 3);
-  const py::array to = floatTable(target_points, "target_points", 3);
-  if (from.shape(0) != to.shape(0))
-    throw py::value_error("target_points: are " + std::to_string(to.shape(0)) +
-                          ", but source_points are " + std::to_string(from.shape(0)));
-  std::optional<Rows<float>> given_ranks;
-  if (!ranks.is_none())
-    given_ranks = columnOf(ranks, "ranks");
-  if (given_ranks && given_ranks->size != static_cast<std::size_t>(from.shape(0)))
-    throw py::value_error("ranks: are " + std::to_string(given_ranks->size) +
-                          ", but correspondences are " + std::to_string(from.shape(0)));
-  const PairClouds clouds(source, target);
-  if (clouds.hasScan())
-    return estimateWithScans(
-        self.registration, Pairs<double>(from, to, given_ranks), clouds, options);
-  if (isDouble(from) || isDouble(to) ||
-      (clouds.source && (clouds.source->isDouble() || clouds.target->isDouble())))
-    return estimate(
-        self.registration, Pairs<double>(from, to, given_ranks), clouds, options);
-  return estimate(
-      self.registration, Pairs<float>(from, to, given_ranks), clouds, options);
-}
-
 Scan
-makeScan(Registration& self, py::handle cloud, double resolution, bool descriptors)
+makeScan(PairObject& self, py::handle cloud, double resolution, bool descriptors)
 {
   const Turn turn = self.turn();
   const PairArgument argument(cloud, "cloud");
@@ -261,7 +90,7 @@ makeScan(Registration& self, py::handle cloud, double resolution, bool descripto
 }
 
 ScanIndex
-makeIndex(Registration& self, const Scan& scan)
+makeIndex(PairObject& self, const Scan& scan)
 {
   const Turn turn = self.turn();
   return compute(
@@ -269,7 +98,7 @@ makeIndex(Registration& self, const Scan& scan)
 }
 
 py::tuple
-match(Registration& self,
+match(PairObject& self,
       const Scan& source,
       const Scan& target,
       std::size_t neighbors,
@@ -313,61 +142,27 @@ Raises:
     BackendError: the machine fails.
 )";
 
-const char* const ESTIMATE_POSE =
-    R"(Finds the pose from correspondences, of which most may be wrong.
-
-Args:
-    source_points, target_points: N x 3 each, float32 or float64; row i of one belongs to row
-        i of the other. Rows with a coordinate that is not finite are ignored.
-    resolution: voxel size of the clouds that they come from; None to tell it by the spacing
-        of the points.
-    ranks: N, smaller is better (a distance in feature space); None: the order of the rows.
-        They decide which rows are left out beyond Parameters.max_correspondences.
-    source, target: the clouds, as align() takes them, which judge the pose; both or none.
-    parameters, guess, cloud_check: as for align().
-
-Returns:
-    A Result, whose inliers are rows of the arrays.
-
-Raises:
-    As align().
-)";
-
 void
-bindCalls(py::class_<Registration>& registration)
+bindAlign(py::class_<PairObject>& registration)
 {
-  registration
-      .def("align",
-           &align,
-           "source"_a,
-           "target"_a,
-           "resolution"_a = py::none(),
-           py::kw_only(),
-           "parameters"_a = py::none(),
-           "guess"_a = py::none(),
-           "neighbors"_a = 1,
-           "mutual"_a = false,
-           "cloud_check"_a = true,
-           "second_look"_a = true,
-           "give_up_early"_a = false,
-           ALIGN)
-      .def("estimate_pose",
-           &estimatePose,
-           "source_points"_a,
-           "target_points"_a,
-           "resolution"_a = py::none(),
-           py::kw_only(),
-           "ranks"_a = py::none(),
-           "source"_a = py::none(),
-           "target"_a = py::none(),
-           "parameters"_a = py::none(),
-           "guess"_a = py::none(),
-           "cloud_check"_a = true,
-           ESTIMATE_POSE);
+  registration.def("align",
+                   &align,
+                   "source"_a,
+                   "target"_a,
+                   "resolution"_a = py::none(),
+                   py::kw_only(),
+                   "parameters"_a = py::none(),
+                   "guess"_a = py::none(),
+                   "neighbors"_a = 1,
+                   "mutual"_a = false,
+                   "cloud_check"_a = true,
+                   "second_look"_a = true,
+                   "give_up_early"_a = false,
+                   ALIGN);
 }
 
 void
-bindScans(py::class_<Registration>& registration)
+bindScans(py::class_<PairObject>& registration)
 {
   registration
       .def("make_scan",
@@ -414,7 +209,7 @@ Raises:
 void
 bindPairRegistration(py::module_& module)
 {
-  py::class_<Registration> registration(
+  py::class_<PairObject> registration(
       module,
       "PairRegistration",
       R"(Registers pairs of clouds; keeps its threads and its memory from call to call.
@@ -430,18 +225,19 @@ Raises:
 )");
   registration
       .def(py::init([](unsigned num_threads, const std::string& backend) {
-             return std::make_unique<Registration>(backend, num_threads);
+             return std::make_unique<PairObject>(backend, num_threads);
            }),
            "num_threads"_a = 0,
            "backend"_a = "auto")
       .def_property_readonly(
           "backend",
-          [](const Registration& self) { return self.registration.backendName(); },
+          [](const PairObject& self) { return self.registration.backendName(); },
           "Name of the backend that was chosen, e.g. 'cpu-avx512'.")
-      .def("__repr__", [](const Registration& self) {
+      .def("__repr__", [](const PairObject& self) {
         return "PairRegistration(" + self.registration.backendName() + ")";
       });
-  bindCalls(registration);
+  bindAlign(registration);
+  bindEstimatePose(registration);
   bindScans(registration);
   module.def("default_parameters", [](double resolution) {
     return fieldsOf(Parameters::fromResolution(resolution));
