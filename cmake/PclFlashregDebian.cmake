@@ -1,4 +1,5 @@
-# `cpack -G DEB` in the build directory makes one Debian package of all that is installed.
+# `cpack -G DEB` in the build directory makes a Debian package of all that is installed, and one
+# of the Python module.
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME pcl-flashreg)
@@ -23,4 +24,24 @@ endif()
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ${BUILD_SHARED_LIBS})
+if(PCL_FLASHREG_PYTHON)
+  set(CPACK_DEB_COMPONENT_INSTALL ON)
+  set(CPACK_COMPONENTS_ALL Unspecified python)
+  set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME pcl-flashreg)
+  set(CPACK_COMPONENT_UNSPECIFIED_DESCRIPTION ${CPACK_PACKAGE_DESCRIPTION})
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-pcl-flashreg)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "Finds the rigid transform between two point clouds with no initial guess, repeats
+itself to the last bit, and says whether to trust the answer. Contains the Python module,
+which takes NumPy arrays and files, and needs no PCL.")
+  # The compiled part is for one version of Python alone.
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+  if(BUILD_SHARED_LIBS)
+    string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      ", pcl-flashreg (= ${PROJECT_VERSION})")
+  endif()
+endif()
 include(CPack)

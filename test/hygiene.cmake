@@ -2,7 +2,7 @@
 #
 # Two rules that no compiler enforces: code compiled with instruction-set flags must not
 # offer inline functions to the rest of the program (the linker keeps one copy, and an AVX
-# copy crashes older processors); and the core must not know PCL.
+# copy crashes older processors); and the core and the Python module must not know PCL.
 
 set(checked 0)
 foreach(object IN LISTS OBJECTS)
@@ -23,7 +23,8 @@ if(checked EQUAL 0)
 endif()
 
 file(GLOB_RECURSE sources
-  ${SOURCE_DIR}/src/*.h ${SOURCE_DIR}/src/*.cpp ${SOURCE_DIR}/cuda/*)
+  ${SOURCE_DIR}/src/*.h ${SOURCE_DIR}/src/*.cpp ${SOURCE_DIR}/cuda/*
+  ${SOURCE_DIR}/python/*.h ${SOURCE_DIR}/python/*.cpp)
 foreach(source IN LISTS sources)
   file(STRINGS ${source} includes REGEX "#include <pcl/")
   if(includes)

@@ -15,6 +15,24 @@
 namespace pcl_flashreg::io {
 
 RigidTransform
+toRigidTransform(const Eigen::Matrix4d& matrix)
+{
+  // Matrices that people print with few digits are let pass, others are not.
+  constexpr double tolerance = 1e-2;
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  const Eigen::RowVector4d last_row(0, 0, 0, 1);
+  if (!matrix.allFinite() || rotation.determinant() < 0 ||
+      !(rotation.transpose() * rotation).isIdentity(tolerance) ||
+      !matrix.bottomRows<1>().isApprox(last_row, tolerance))
+    throw InputError("is no rigid transform: a rotation with determinant +1, a "
+                     "translation, and 0 0 0 1 in the last row are expected");
+  RigidTransform result;
+  result.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  result.translation = matrix.topRightCorner<3, 1>();
+  return result;
+}
+
+RigidTransform
 parseTransform(std::string_view text)
 {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
@@ -23,20 +41,9 @@ parseTransform(std::string_view text)
   if ((n != 16 && n != 12) || (table.columns != 4 && table.rows() != 1))
     throw InputError("holds " + std::to_string(n) +
                      " numbers, expected a 4 x 4 matrix by rows");
-  const Rows matrix = Eigen::Map<const Rows>(table.values.data(), n / 4, 4);
-  // Matrices that people print with few digits are let pass, others are not.
-  constexpr double tolerance = 1e-2;
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  const Eigen::RowVector4d last_row(0, 0, 0, 1);
-  if (!matrix.allFinite() || rotation.determinant() < 0 ||
-      !(rotation.transpose() * rotation).isIdentity(tolerance) ||
-      (n == 16 && !matrix.bottomRows<1>().isApprox(last_row, tolerance)))
-    throw InputError("is no rigid transform: a rotation with determinant +1, a "
-                     "translation, and 0 0 0 1 in the last row are expected");
-  RigidTransform result;
-  result.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
-  result.translation = matrix.topRightCorner<3, 1>();
-  return result;
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topRows(n / 4) = Eigen::Map<const Rows>(table.values.data(), n / 4, 4);
+  return toRigidTransform(matrix);
 }
 
 std::string

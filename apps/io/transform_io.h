@@ -10,6 +10,12 @@
 
 namespace pcl_flashreg::io {
 
+/** \brief A 4 x 4 matrix as a rigid transform, with its rotation made exactly orthonormal.
+ * \throws InputError if it is none
+ */
+RigidTransform
+toRigidTransform(const Eigen::Matrix4d& matrix);
+
 /** \brief Reads a rigid transform.
  *
  * A 4 x 4 or 3 x 4 matrix by rows, on one line or several. The rotation is made exactly

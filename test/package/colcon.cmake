@@ -14,7 +14,7 @@ endif()
 run(${COLCON} --log-base log build --base-paths ${SOURCE_DIR}
   --build-base build --install-base install --event-handlers console_direct+
   --cmake-args -DPCL_FLASHREG_BUILD_APPS=OFF -DPCL_FLASHREG_WITH_PCL=${WITH_PCL}
-    -DPCL_FLASHREG_WITH_CUDA=OFF
+    -DPCL_FLASHREG_WITH_CUDA=OFF -DPCL_FLASHREG_WITH_PYTHON=OFF
     -DCMAKE_CXX_COMPILER=${CXX})
 set(installed ${WORK_DIR}/install/pcl_flashreg)
 expect_file(${installed}/share/pcl_flashreg/package.xml)
