@@ -29,7 +29,8 @@ struct TwinHalls {
         for (const Eigen::Vector3d& point : hall.scans[i])
           map.push_back(hall.T_hall_scan[i] * point + shift);
     }
-    for (const Eigen::Vector3d& point : Room(7, 800, 0.004).points())
+    const Room mapped(7, 800, 0.004), scanned(11, 800, 0.004);
+    for (const Eigen::Vector3d& point : mapped.points())
       map.push_back(point + room());
     const HallScans hall(true, 10000);
     for (const std::size_t i : {1, 2, 3}) {
@@ -39,7 +40,7 @@ struct TwinHalls {
     Eigen::Isometry3d in_room(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()));
     in_room.pretranslate(room() + Eigen::Vector3d(1, 1, 1));
     scans.emplace_back();
-    for (const Eigen::Vector3d& point : Room(11, 800, 0.004).points())
+    for (const Eigen::Vector3d& point : scanned.points())
       scans.back().push_back(in_room.inverse() * (point + room()));
     T_map_scan.push_back(in_room);
   }
