@@ -4,7 +4,8 @@
 """Looks for every n-th fragment of each scene in the map of all its others, and says how many
 were found. Maps are the unions of fragments, placed by chained poses of the list, points alone;
 with --beside, those of all scenes side by side, and with --foreign those of the other scenes,
-where nothing is to be found. pcl_flashreg_localize must be on the PATH. Needs numpy.
+where nothing is to be found; with --together N, N that follow each other as a sequence, in the
+map of all others. pcl_flashreg_localize must be on the PATH. Needs numpy.
 
     scripts/localize_scenes.py DATA/pairs.tsv OUT --dataset 3DMatch --every 3
 """
@@ -43,6 +44,21 @@ def locate(points, scans, out, options):
     return [json.loads(line) for line in run.stdout.splitlines()]
 
 
+def locate_together(points, paths, true_poses, out):
+    """Lines of the scans of a sequence, each alone and then together. Its poses are the true
+    ones, in the frame of the first."""
+    file = os.path.join(out, "sequence.kitti")
+    with open(file, "w") as rows:
+        for T in true_poses:
+            own = np.linalg.inv(true_poses[0]) @ T
+            rows.write(" ".join("%.9g" % value for value in own[:3].ravel()) + "\n")
+    lines = locate(points, paths, out, ["--sequence", file])
+    # Together all are right, or none: the last line is of the sequence.
+    whole = dict(lines[0], timings_ms=lines[-1]["timings_ms"])
+    alone = [dict(line["alone"], timings_ms=line["timings_ms"]) for line in lines[:-1]]
+    return alone, whole
+
+
 class Score:
     def __init__(self):
         self.all = self.right = self.trusted = self.wrong = 0
@@ -70,6 +86,23 @@ class Score:
         )
 
 
+def run_together(scenes, placed, root, options):
+    scores = {"each alone": Score(), "together": Score()}
+    for poses in scenes.values():
+        names = list(poses)
+        for first in range(0, len(names) - options.together + 1, options.every):
+            some = names[first : first + options.together]
+            points = np.vstack([placed[other] for other in names if other not in some])
+            paths = [os.path.join(root, path) for path in some]
+            true = [poses[path] for path in some]
+            alone, whole = locate_together(points, paths, true, options.out)
+            for line, pose in zip(alone, true):
+                scores["each alone"].add(line, pose)
+            scores["together"].add(whole, true[0])
+    for name, score in scores.items():
+        print(score.row("%d %s" % (options.together, name)))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("pairs", help="list of pairs with known poses")
@@ -78,6 +111,7 @@ def main():
     parser.add_argument("--every", type=int, default=1, help="only every n-th fragment")
     parser.add_argument("--beside", action="store_true", help="one map of all scenes")
     parser.add_argument("--foreign", action="store_true", help="maps of other scenes")
+    parser.add_argument("--together", type=int, help="so many that follow each other")
     parser.add_argument("--no-viewpoint", action="store_true", help="nor the fragments'")
     options = parser.parse_args()
     flags = ["--no-viewpoint"] if options.no_viewpoint else []
@@ -100,6 +134,9 @@ def main():
     print("| scene | fragments | right | of these trusted | trusted and wrong | median ms | 95 % |")
     print("|---|---|---|---|---|---|---|")
     total = Score()
+    if options.together:
+        run_together(scenes, placed, root, options)
+        return
     for scene, poses in scenes.items():
         score = Score()
         chosen = list(poses)[:: options.every]

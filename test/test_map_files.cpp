@@ -147,5 +147,43 @@ TEST(Poses, quaternionsHaveAPositiveRealPart)
   EXPECT_EQ(io::numberText(0.1), "0.1");
 }
 
+TEST(PoseFiles, whatIsWrittenIsRead)
+{
+  std::vector<io::PosedScan> posed;
+  for (const std::uint64_t seed : {1, 2, 3})
+    posed.push_back({std::to_string(10 * seed), "scan", somePose(seed)});
+  for (const bool is_tum : {true, false}) {
+    const auto read =
+        io::parsePoses(is_tum ? io::formatTum(posed) : io::formatKitti(posed));
+    ASSERT_EQ(read.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(read[i].number, is_tum ? 10 * (i + 1) : i);
+      EXPECT_TRUE(read[i].pose.rotation.isApprox(posed[i].pose.rotation, 1e-12));
+      EXPECT_EQ(read[i].pose.translation, posed[i].pose.translation);
+    }
+  }
+}
+
+TEST(PoseFiles, scansHavePosesByNumberOrInOrder)
+{
+  std::vector<io::NumberedPose> poses;
+  for (const double number : {3.5, 1.5, 2.5})
+    poses.push_back({number, {}}), poses.back().pose.translation.x() = number;
+  const auto placesOf = [&](const std::vector<std::string>& paths) {
+    std::vector<double> places;
+    for (const RigidTransform& pose : io::posesOf(paths, poses))
+      places.push_back(pose.translation.x());
+    return places;
+  };
+  using Places = std::vector<double>;
+  EXPECT_EQ(placesOf({"a/1.5.pcd", "a/3.5.pcd"}), (Places{1.5, 3.5}));
+  EXPECT_EQ(placesOf({"a/1.50.pcd", "b/2.5.ply", "3.5.bin"}), (Places{1.5, 2.5, 3.5}));
+  // Not all of these numbers are there, and these are none.
+  EXPECT_EQ(placesOf({"1.5.pcd", "2.5.pcd", "4.pcd"}), (Places{3.5, 1.5, 2.5}));
+  EXPECT_EQ(placesOf({"a.pcd", "b.pcd", "c.pcd"}), (Places{3.5, 1.5, 2.5}));
+  EXPECT_THROW(placesOf({"a.pcd", "b.pcd"}), io::InputError);
+  EXPECT_THROW(placesOf({"1.5.pcd", "4.pcd"}), io::InputError);
+}
+
 } // namespace
 } // namespace pcl_flashreg::map

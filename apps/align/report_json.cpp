@@ -107,7 +107,7 @@ formatJson(const Options& options, const Outcome& outcome)
   json["second_order"] =
       result.second_order == SecondOrder::Exact ? "exact" : "bounded";
   json["hypotheses"] = hypothesesOf(result);
-  json["free_motions"] = program::freeMotionsOf(result);
+  json["free_motions"] = program::freeMotionsOf(result.free_motions);
   json["information"] = rowsOf(result.information);
   json["timings_ms"] = timingsOf(outcome);
   return program::textOf(json);

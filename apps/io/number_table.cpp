@@ -12,12 +12,6 @@
 namespace pcl_flashreg::io {
 namespace {
 
-std::string
-atLine(std::size_t line)
-{
-  return "line " + std::to_string(line) + ": ";
-}
-
 bool
 isDigits(std::string_view text)
 {
@@ -70,6 +64,12 @@ refuseDecimalCommas(std::string_view line, std::size_t number)
 }
 
 } // namespace
+
+std::string
+atLine(std::size_t line)
+{
+  return "line " + std::to_string(line) + ": ";
+}
 
 NumberTable
 parseNumberTable(std::string_view text)

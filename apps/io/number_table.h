@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct NumberTable {
     return values.data() + i * columns;
   }
 };
+
+/** \brief "line 7: ", for messages. */
+std::string
+atLine(std::size_t line);
 
 /** \brief Reads rows of numbers, separated by blanks or commas. Empty lines, and what
  * follows a '#', are left out. "nan" and "inf" are numbers. Decimal commas are refused:

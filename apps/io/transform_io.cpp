@@ -13,23 +13,35 @@
 #include <sstream>
 
 namespace pcl_flashreg::io {
+namespace {
+
+/** \brief By how much matrices may be off that people print with few digits. */
+constexpr double ROUNDED = 1e-2;
+
+} // namespace
+
+std::optional<RigidTransform>
+rigidOf(const Eigen::Matrix<double, 3, 4>& matrix)
+{
+  const Eigen::Matrix3d rotation = matrix.leftCols<3>();
+  if (!matrix.allFinite() || rotation.determinant() < 0 ||
+      !(rotation.transpose() * rotation).isIdentity(ROUNDED))
+    return std::nullopt;
+  RigidTransform result;
+  result.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  result.translation = matrix.col(3);
+  return result;
+}
 
 RigidTransform
 toRigidTransform(const Eigen::Matrix4d& matrix)
 {
-  // Matrices that people print with few digits are let pass, others are not.
-  constexpr double tolerance = 1e-2;
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   const Eigen::RowVector4d last_row(0, 0, 0, 1);
-  if (!matrix.allFinite() || rotation.determinant() < 0 ||
-      !(rotation.transpose() * rotation).isIdentity(tolerance) ||
-      !matrix.bottomRows<1>().isApprox(last_row, tolerance))
+  const std::optional<RigidTransform> result = rigidOf(matrix.topRows<3>());
+  if (!result || !matrix.bottomRows<1>().isApprox(last_row, ROUNDED))
     throw InputError("is no rigid transform: a rotation with determinant +1, a "
                      "translation, and 0 0 0 1 in the last row are expected");
-  RigidTransform result;
-  result.rotation = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
-  result.translation = matrix.topRightCorner<3, 1>();
-  return result;
+  return *result;
 }
 
 RigidTransform

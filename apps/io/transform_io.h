@@ -5,10 +5,19 @@
 
 #include <pcl_flashreg/result.h>
 
+#include <Eigen/Core>
+
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace pcl_flashreg::io {
+
+/** \brief A rigid transform from the upper three rows of a matrix: the rotation is made exactly
+ * orthonormal, so that one that was printed with few digits is let pass; nothing if it is
+ * none. */
+std::optional<RigidTransform>
+rigidOf(const Eigen::Matrix<double, 3, 4>& matrix);
 
 /** \brief A 4 x 4 matrix as a rigid transform, with its rotation made exactly orthonormal.
  * \throws InputError if it is none

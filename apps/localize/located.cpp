@@ -14,16 +14,21 @@ supportOf(const CloudAgreement& agreement)
 
 } // namespace
 
+bool
+isRival(const CloudAgreement& other, const CloudAgreement& pose)
+{
+  constexpr double ENOUGH = 0.5;
+  return supportOf(other) >= ENOUGH * supportOf(pose);
+}
+
 std::vector<Hypothesis>
 rivalsOf(const Result& result)
 {
-  constexpr double ENOUGH = 0.5;
-  constexpr std::size_t MOST = 5;
   std::vector<Hypothesis> rivals;
-  const double needed = ENOUGH * supportOf(result.evidence.agreement);
-  for (std::size_t i = 1; i < result.hypotheses.size() && rivals.size() < MOST; ++i) {
+  for (std::size_t i = 1; i < result.hypotheses.size() && rivals.size() < MOST_RIVALS;
+       ++i) {
     const Hypothesis& other = result.hypotheses[i];
-    if (other.agreement && supportOf(*other.agreement) >= needed)
+    if (other.agreement && isRival(*other.agreement, result.evidence.agreement))
       rivals.push_back(other);
   }
   return rivals;

@@ -10,6 +10,7 @@
 
 #include <pcl_flashreg/impl/number_text.hpp>
 #include <pcl_flashreg/impl/stopwatch.hpp>
+#include <pcl_flashreg/sequence_localization.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,21 @@ reachOf(const Scan& scan)
   return reach;
 }
 
+RigidTransform
+toTransform(const Eigen::Isometry3d& T)
+{
+  return {T.linear(), T.translation()};
+}
+
 } // namespace
+
+std::string
+beyondNear(double distance, const Near& near, bool would_be_trusted)
+{
+  return "the pose is " + program::rounded(distance, 2) +
+         " away from the place of --near, where " + detail::toText(near.radius) +
+         " is allowed" + (would_be_trusted ? ": it is not trusted" : "");
+}
 
 Locator::Locator(const Options& options,
                  const std::optional<RigidTransform>& guess,
@@ -57,6 +72,27 @@ Locator::Locator(const Options& options,
 Located
 Locator::locate(const program::ScanFile& file)
 {
+  Scan scan;
+  return locate(file, pair_options_, scan);
+}
+
+Located
+Locator::locate(const program::ScanFile& file,
+                const RigidTransform& T_sequence_scan,
+                Scan& scan)
+{
+  PairOptions pair_options = forSequence(pair_options_);
+  if (pair_options.guess)
+    pair_options.guess =
+        toTransform(pair_options.guess->toIsometry() * T_sequence_scan.toIsometry());
+  return locate(file, pair_options, scan);
+}
+
+Located
+Locator::locate(const program::ScanFile& file,
+                const PairOptions& pair_options,
+                Scan& scan)
+{
   const detail::Stopwatch total;
   Located located;
   located.file = file;
@@ -64,11 +100,12 @@ Locator::locate(const program::ScanFile& file)
     const ScanSettings settings{
         map_.scan().spacing(), options_.bin_fields, options_.viewpoint_known};
     const InputScan input = readScan(file.path, settings, registration_);
+    scan = input.scan;
     located.warnings = input.warnings;
     located.times.reading = input.reading;
     located.times.scan = input.making;
     located.keypoints = input.scan.size();
-    place(input.scan, located);
+    place(scan, pair_options, located);
   }
   catch (const io::InputError& error) {
     located.error = error.what();
@@ -81,7 +118,7 @@ Locator::locate(const program::ScanFile& file)
 }
 
 void
-Locator::place(const Scan& scan, Located& located)
+Locator::place(const Scan& scan, const PairOptions& pair_options, Located& located)
 {
   const detail::Stopwatch watch;
   const ScanIndex& where = options_.near ? partFor(scan) : map_;
@@ -89,7 +126,7 @@ Locator::place(const Scan& scan, Located& located)
     located.warnings.push_back("the map has no points near the place of --near");
     return;
   }
-  const PairResult pair = registration_.align(scan, where, pair_options_);
+  const PairResult pair = registration_.align(scan, where, pair_options);
   located.result = pair.pose;
   located.correspondences = pair.correspondences;
   if (options_.near)
@@ -123,11 +160,7 @@ Locator::judgeNear(Located& located) const
   const double distance = (located.T_map_scan().translation - near.centre).norm();
   if (!located.hasPose() || distance <= near.radius)
     return;
-  const std::string off = program::rounded(distance, 2) +
-                          " away from the place of --near, where " +
-                          detail::toText(near.radius) + " is allowed";
-  located.warnings.push_back("the pose is " + off +
-                             (located.isTrusted() ? ": it is not trusted" : ""));
+  located.warnings.push_back(beyondNear(distance, near, located.isTrusted()));
   located.result.converged = false;
 }
 

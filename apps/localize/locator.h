@@ -8,6 +8,10 @@
 
 namespace pcl_flashreg::localize {
 
+/** \brief That a pose is away from the place of --near, for people. */
+std::string
+beyondNear(double distance, const Near& near, bool would_be_trusted);
+
 /** \brief Finds scans in a map, one after the other. */
 class Locator {
 public:
@@ -24,9 +28,26 @@ public:
   Located
   locate(const program::ScanFile& file);
 
+  /** \brief The same of a scan of a sequence, which is wanted afterwards, and tells of all
+   * places where it may be.
+   * \param[in] T_sequence_scan the guess is of the sequence
+   * \param[out] scan empty if the file can't be used */
+  Located
+  locate(const program::ScanFile& file,
+         const RigidTransform& T_sequence_scan,
+         Scan& scan);
+
+  const ScanIndex&
+  map() const
+  {
+    return map_;
+  }
+
 private:
+  Located
+  locate(const program::ScanFile& file, const PairOptions& pair_options, Scan& scan);
   void
-  place(const Scan& scan, Located& located);
+  place(const Scan& scan, const PairOptions& pair_options, Located& located);
   const ScanIndex&
   partFor(const Scan& scan);
   void

@@ -41,7 +41,8 @@ void
 checkOutputs(const Options& options, const std::vector<ScanFile>& files)
 {
   std::vector<std::string> inputs = pathsOf(files);
-  inputs.insert(inputs.end(), {options.map, options.list, options.guess_file});
+  inputs.insert(inputs.end(),
+                {options.map, options.list, options.guess_file, options.sequence});
   std::vector<std::string> outputs{options.poses, options.picture, options.index};
   if (!options.index.empty())
     outputs.push_back(stampPathOf(options.index));
@@ -49,9 +50,9 @@ checkOutputs(const Options& options, const std::vector<ScanFile>& files)
 }
 
 void
-writeLine(const Located& located)
+writeLine(const program::Json& json)
 {
-  if (!(std::cout << program::lineOf(jsonOf(located)) << std::flush))
+  if (!(std::cout << program::lineOf(json) << std::flush))
     throw std::runtime_error("standard output: cannot be written");
 }
 
@@ -91,6 +92,51 @@ statusOf(const std::vector<Located>& all)
   return status;
 }
 
+std::vector<Located>
+locateEach(const std::vector<ScanFile>& files,
+           Locator& locator,
+           const Options& options,
+           const Messages& messages)
+{
+  std::vector<Located> all;
+  for (const ScanFile& file : files) {
+    all.push_back(locator.locate(file));
+    writeLine(jsonOf(all.back()));
+    tell(all.back(), options, locator.map().scan().spacing(), messages);
+  }
+  return all;
+}
+
+/** \brief What is said of a scan of a sequence has to wait for the others. */
+std::vector<Located>
+locateTogether(const std::vector<ScanFile>& files,
+               Locator& locator,
+               const Options& options,
+               const Messages& messages)
+{
+  const double spacing = locator.map().scan().spacing();
+  std::vector<Located> all;
+  const LocatedSequence sequence = locateSequence(options, files, locator, all);
+  for (const Located& located : all) {
+    writeLine(jsonOf(located));
+    tell(located, options, spacing, messages);
+  }
+  writeLine(jsonOf(sequence));
+  messages.tell(formatSequence(sequence, options, spacing));
+  return all;
+}
+
+/** \brief Before the map is read, which may take long. */
+void
+checkSequence(const Options& options, const std::vector<ScanFile>& files)
+{
+  if (options.sequence.empty())
+    return;
+  if (files.size() < 2)
+    throw UsageError("--sequence: a sequence has two scans or more");
+  sequencePoses(options, files);
+}
+
 int
 run(const Options& options)
 {
@@ -98,6 +144,7 @@ run(const Options& options)
   const std::vector<ScanFile> files =
       program::findScans(options.scans, options.list, program::ScanOrder::AsGiven);
   checkOutputs(options, files);
+  checkSequence(options, files);
   std::optional<RigidTransform> guess = options.guess;
   if (!options.guess_file.empty())
     guess = io::parseFile(options.guess_file, io::parseTransform);
@@ -109,12 +156,9 @@ run(const Options& options)
   const ScanIndex map = openMap(options, resolution, registration, messages);
 
   Locator locator(options, guess, map, registration);
-  std::vector<Located> all;
-  for (const ScanFile& file : files) {
-    all.push_back(locator.locate(file));
-    writeLine(all.back());
-    tell(all.back(), options, map.scan().spacing(), messages);
-  }
+  const std::vector<Located> all =
+      options.sequence.empty() ? locateEach(files, locator, options, messages)
+                               : locateTogether(files, locator, options, messages);
   if (all.size() > 1)
     messages.tell(formatTotal(all));
   if (!options.poses.empty())

@@ -3,6 +3,7 @@
 
 #include "options.h"
 
+#include "../io/pose_io.h"
 #include "../io/text.h"
 #include "../program/command_line.h"
 #include "../program/help_text.h"
@@ -11,8 +12,6 @@
 #include "places_picture.h"
 
 #include <pcl_flashreg/estimator.h>
-
-#include <Eigen/Geometry>
 
 #include <cmath>
 
@@ -35,12 +34,16 @@ Examples:
       an index in place of the map; a picture of the map with all scans in it
   pcl_flashreg_localize map.pcd 000010.bin --leaf 0.3 --near 120,-35,0,20 --upright
       the scanner stands level, within 20 m of a place
+  pcl_flashreg_localize map.index scans/ --sequence odometry.tum --poses poses.tum
+      scans of known relative motion, which are looked for together
 
 MAP is a cloud (.pcd, .ply, raw .bin), a scan or an index that this project saved. SCANs
 are clouds, saved scans, or folders of clouds. Standard output has a line of JSON a scan,
 in the order in which they are given, with the names that pcl_flashreg_align --json uses;
 "transformation" maps the scan into the map, "rivals" are other poses that the clouds
-speak for at least half as much. Standard error has what people read.
+speak for at least half as much. With --sequence, each scan has the verdict and the pose
+of the sequence, and what was found of it "alone"; one more line is of the sequence.
+Standard error has what people read.
 
 Exit status: 0 all scans are placed and trusted; 1 some are not; 2 wrong usage; 3 an
 input file (a scan, too) or the machine is at fault.)";
@@ -84,10 +87,22 @@ addInputs(CLI::App& app, Options& options, Words& words)
                  "damage is found that does not show otherwise"))
       ->group(group);
   app.add_option(
+         "--sequence",
+         options.sequence,
+         wrapped(
+             "The scans are a sequence, with these poses in a frame of its own "
+             "(odometry), as --poses writes them in .tum or .kitti: all are looked "
+             "for together, since one alone may be ambiguous. Scans whose names are "
+             "numbers have the poses with these numbers, others that in their "
+             "place"))
+      ->type_name("FILE")
+      ->group(group);
+  app.add_option(
          "--guess",
          words.guess,
          wrapped(
-             "A pose that is tried for every scan like any other hypothesis: a "
+             "A pose that is tried for every scan (with --sequence, of its frame) like "
+             "any other hypothesis: a "
              "translation, perhaps with a quaternion, or a file with a 4 x 4 matrix"))
       ->type_name("X,Y,Z[,QX,QY,QZ,QW]|FILE")
       ->group(group);
@@ -176,11 +191,10 @@ takeGuess(const std::string& text, Options& options)
     throw UsageError("--guess: expected X,Y,Z, X,Y,Z,QX,QY,QZ,QW or a file, found '" +
                      text + "'");
   if (n.size() == 7) {
-    constexpr double ROUNDED = 0.01;
-    const Eigen::Quaterniond q(n[6], n[3], n[4], n[5]);
-    if (!(std::abs(q.norm() - 1) < ROUNDED))
+    const std::optional<RigidTransform> pose = io::poseOfCells(n.data());
+    if (!pose)
       throw UsageError("--guess: the quaternion QX,QY,QZ,QW must have length 1");
-    guess.rotation = q.normalized().toRotationMatrix();
+    guess = *pose;
   }
   options.guess = guess;
 }

@@ -40,7 +40,11 @@ struct Options {
   /** \brief Whether to read all of an index at once and compare its checksum. */
   bool verify = false;
 
-  /** \brief A pose that is tried for every scan, or the file that it is in. */
+  /** \brief Poses of the scans to each other, which are looked for together. */
+  std::string sequence;
+
+  /** \brief A pose that is tried for every scan, or of the sequence; or the file that it is
+   * in. */
   std::optional<RigidTransform> guess;
   std::string guess_file;
   std::optional<Near> near;

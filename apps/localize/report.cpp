@@ -69,7 +69,10 @@ reasonText(const Located& located, double spacing)
                                     : located.warnings.back();
   std::string text = "best guess " +
                      positionText(located.T_map_scan().translation, spacing) +
-                     " with confidence " + rounded(located.result.confidence, 2);
+                     " with confidence " + rounded(located.confidence(), 2);
+  // Of a sequence all that is said of it once.
+  if (located.in_sequence)
+    return text;
   const std::string want = program::wantOf(located.result.evidence);
   if (!want.empty())
     text += "; " + want;
@@ -118,7 +121,7 @@ formatCsv(const std::vector<Located>& all)
   for (const Located& located : all) {
     std::vector<std::string> cells{io::inOneLine(located.file.name),
                                    located.isTrusted() ? "1" : "0",
-                                   io::numberText(located.result.confidence)};
+                                   io::numberText(located.confidence())};
     if (located.isTrusted())
       for (const std::string& cell : io::poseCells(located.T_map_scan()))
         cells.push_back(cell);
@@ -139,10 +142,37 @@ formatPlace(const Located& located, const Options& options, double spacing)
   std::string text = located.file.name + ": at " +
                      positionText(located.T_map_scan().translation, spacing) + ", " +
                      headingText(located.T_map_scan(), options.parameters) +
-                     ", confidence " + rounded(located.result.confidence, 2) + time;
+                     ", confidence " + rounded(located.confidence(), 2) + time;
   for (const std::string& warning : located.warnings)
     text += "; " + warning;
   return text;
+}
+
+std::string
+formatSequence(const LocatedSequence& sequence, const Options& options, double spacing)
+{
+  const SequenceResult& result = sequence.result;
+  const std::string name =
+      sequence.file + ": sequence of " + countOf(sequence.scans, "scan");
+  const std::string time = ", " + rounded(sequence.placing, 0) + " ms";
+  if (result.placements.empty())
+    return name + ": not found" + time;
+  const SequencePlacement& best = result.placements.front();
+  std::string text = name +
+                     (sequence.isTrusted() ? ": at " : ": not found: best guess ") +
+                     positionText(best.T_map_sequence.translation, spacing) + ", " +
+                     headingText(best.T_map_sequence, options.parameters) +
+                     ", confidence " + rounded(result.confidence, 2) + ", " +
+                     std::to_string(best.supporters) + " could be there by themselves";
+  const std::string want = program::wantOf(result.evidence);
+  if (!sequence.isTrusted() && !want.empty())
+    text += "; " + want;
+  const std::size_t rivals = rivalsOf(result).size();
+  if (!sequence.isTrusted() && rivals > 0)
+    text += " (" + countOf(rivals, "rival") + ")";
+  for (const std::string& warning : sequence.warnings)
+    text += "; " + warning;
+  return text + time;
 }
 
 std::string

@@ -6,6 +6,7 @@
 #include "../program/json.h"
 #include "located.h"
 #include "options.h"
+#include "sequence.h"
 
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace pcl_flashreg::localize {
  * \param[in] spacing of the map, which says how many digits mean anything */
 std::string
 formatPlace(const Located& located, const Options& options, double spacing);
+
+/** \brief The same of a sequence. */
+std::string
+formatSequence(const LocatedSequence& sequence, const Options& options, double spacing);
 
 /** \brief How many scans are placed. */
 std::string
@@ -28,6 +33,8 @@ formatTotal(const std::vector<Located>& all);
  * same; "timings_ms" comes last, and is all that differs from run to run. */
 program::Json
 jsonOf(const Located& located);
+program::Json
+jsonOf(const LocatedSequence& sequence);
 
 /** \brief Of the scans that are trusted; in CSV and JSON of all of them. */
 std::string

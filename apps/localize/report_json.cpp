@@ -21,24 +21,31 @@ addPose(Json& json, const RigidTransform& pose)
 }
 
 Json
+agreementJson(const CloudAgreement& agreement)
+{
+  return {{"matched", agreement.matched},
+          {"contradicted", agreement.contradicted},
+          {"residual", agreement.residual}};
+}
+
+Json
 rivalJson(const Hypothesis& rival)
 {
   Json json;
   addPose(json, rival.T_target_source);
   json.update(program::hypothesisOf(rival));
-  json["matched"] = rival.agreement->matched;
-  json["contradicted"] = rival.agreement->contradicted;
-  json["residual"] = rival.agreement->residual;
+  json.update(agreementJson(*rival.agreement));
   return json;
 }
 
+/** \brief What was found of the scan by itself. */
 void
 addResult(Json& json, const Located& located)
 {
   const Result& result = located.result;
   json["status"] = program::nameOf(result.status);
-  if (located.hasPose())
-    addPose(json, located.T_map_scan());
+  if (result.status == Status::Ok)
+    addPose(json, result.T_target_source);
   json["inliers"] = result.inliers.size();
   json["correspondences"] = located.correspondences;
   json["keypoints"] = located.keypoints;
@@ -46,11 +53,55 @@ addResult(Json& json, const Located& located)
   json["rivals"] = Json::array();
   for (const Hypothesis& rival : rivalsOf(result))
     json["rivals"].push_back(rivalJson(rival));
-  json["free_motions"] = program::freeMotionsOf(result);
+  json["free_motions"] = program::freeMotionsOf(result.free_motions);
   json["information"] = rowsOf(result.information);
 }
 
+void
+addInSequence(Json& json, const Located& located)
+{
+  if (located.hasPose())
+    addPose(json, located.T_map_scan());
+  json.update(agreementJson(located.in_sequence->agreement));
+  Json& alone = json["alone"];
+  alone["converged"] = located.result.converged;
+  alone["confidence"] = located.result.confidence;
+  addResult(alone, located);
+}
+
+Json
+placementJson(const SequencePlacement& placement)
+{
+  Json json;
+  addPose(json, placement.T_map_sequence);
+  json.update(agreementJson(placement.agreement));
+  json["inliers"] = placement.inliers;
+  json["supporters"] = placement.supporters;
+  return json;
+}
+
 } // namespace
+
+Json
+jsonOf(const LocatedSequence& sequence)
+{
+  const SequenceResult& result = sequence.result;
+  Json json;
+  json["sequence"] = sequence.file;
+  json["scans"] = sequence.scans;
+  json["converged"] = sequence.isTrusted();
+  json["confidence"] = result.confidence;
+  if (!result.placements.empty())
+    json.update(placementJson(result.placements.front()));
+  json["evidence"] = program::evidenceOf(result.evidence);
+  json["rivals"] = Json::array();
+  for (const SequencePlacement* rival : rivalsOf(result))
+    json["rivals"].push_back(placementJson(*rival));
+  json["free_motions"] = program::freeMotionsOf(result.free_motions);
+  json["warnings"] = sequence.warnings;
+  json["timings_ms"] = {{"placing", sequence.placing}};
+  return json;
+}
 
 Json
 jsonOf(const Located& located)
@@ -58,11 +109,13 @@ jsonOf(const Located& located)
   Json json;
   json["file"] = located.file.path;
   json["converged"] = located.isTrusted();
-  json["confidence"] = located.result.confidence;
-  if (located.error.empty())
-    addResult(json, located);
-  else
+  json["confidence"] = located.confidence();
+  if (!located.error.empty())
     json["error"] = located.error;
+  else if (located.in_sequence)
+    addInSequence(json, located);
+  else
+    addResult(json, located);
   json["warnings"] = located.warnings;
   json["timings_ms"] = {{"reading", located.times.reading},
                         {"scan", located.times.scan},

@@ -59,10 +59,10 @@ hypothesisOf(const Hypothesis& hypothesis)
 }
 
 Json
-freeMotionsOf(const Result& result)
+freeMotionsOf(const std::vector<FreeMotion>& motions)
 {
   Json list = Json::array();
-  for (const FreeMotion& motion : result.free_motions)
+  for (const FreeMotion& motion : motions)
     list.push_back({{"kind", motion.kind == FreeMotion::Kind::Turn ? "turn" : "slide"},
                     {"direction", rowsOf(motion.direction.transpose())[0]},
                     {"point", rowsOf(motion.point.transpose())[0]},

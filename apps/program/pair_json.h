@@ -9,6 +9,8 @@
 
 #include <pcl_flashreg/result.h>
 
+#include <vector>
+
 namespace pcl_flashreg::program {
 
 /** \brief "ok", "no_clique" ... */
@@ -24,6 +26,6 @@ hypothesisOf(const Hypothesis& hypothesis);
 
 /** \brief A list. Lengths in the unit of the clouds, turns in radians. */
 Json
-freeMotionsOf(const Result& result);
+freeMotionsOf(const std::vector<FreeMotion>& motions);
 
 } // namespace pcl_flashreg::program

@@ -115,24 +115,6 @@ unit(const std::array<float, 3>& direction)
   return (1 / std::sqrt(dot(v, v))) * v;
 }
 
-Upright
-uprightOf(const Parameters& parameters)
-{
-  Upright upright;
-  upright.required = parameters.motion == MotionModel::Upright;
-  if (!upright.required)
-    return upright;
-  constexpr double RADIANS = 3.14159265358979323846 / 180;
-  const double tilt = RADIANS * parameters.max_tilt;
-  const double chord = 2 * std::sin(tilt / 2);
-  upright.source_up = unit(parameters.source_gravity);
-  upright.target_up = unit(parameters.target_gravity);
-  upright.cosine = std::cos(tilt);
-  upright.sine = std::sin(tilt);
-  upright.squared_slope = static_cast<float>(chord * chord);
-  return upright;
-}
-
 /** \brief Rounds once what is computed in double precision: heights may be far larger than
  * their differences. */
 template <typename Scalar>
@@ -179,6 +161,24 @@ packBoth(const CorrespondenceView<Scalar>& in,
 }
 
 } // namespace
+
+Upright
+uprightOf(const Parameters& parameters)
+{
+  Upright upright;
+  upright.required = parameters.motion == MotionModel::Upright;
+  if (!upright.required)
+    return upright;
+  constexpr double RADIANS = 3.14159265358979323846 / 180;
+  const double tilt = RADIANS * parameters.max_tilt;
+  const double chord = 2 * std::sin(tilt / 2);
+  upright.source_up = unit(parameters.source_gravity);
+  upright.target_up = unit(parameters.target_gravity);
+  upright.cosine = std::cos(tilt);
+  upright.sine = std::sin(tilt);
+  upright.squared_slope = static_cast<float>(chord * chord);
+  return upright;
+}
 
 template <typename Scalar>
 void

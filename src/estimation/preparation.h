@@ -23,6 +23,10 @@ struct Preparation {
   Vec3 target_centre{0, 0, 0};
 };
 
+/** \brief What the motion model asks of poses. */
+Upright
+uprightOf(const Parameters& parameters);
+
 /** \brief Leaves out rows that are not finite, keeps the best-ranked max_correspondences,
  * subtracts the centroids in double precision and packs the rest, with what the motion model
  * asks of poses.

@@ -18,23 +18,9 @@
 namespace pcl_flashreg {
 namespace {
 
-/** \brief Points of a cloud that judge each pose, and the best. */
-constexpr std::size_t POINTS = 1000, POINTS_FOR_BEST = 4000;
-/** \brief See Look. Moved onto the surface, a pose is exact enough for a thinner margin than
- * while it is screened. */
-constexpr float TOLERANCE = 1.5f, MARGIN = 2;
-
 /** \brief Poses on the surface are the same if no corner of the cube around the source moves
  * by more than this many spacings, or than this share of its half side. */
 constexpr double SAME = 10, SAME_OF_SMALL = 0.6;
-
-/** \brief Evidence::lead and Evidence::hold at most. */
-constexpr double MAX_LEAD = 5, MAX_HOLD = 5;
-
-/** \brief Poses that are taken up along the way off the best one, and how often that may be
- * another one then. */
-constexpr std::size_t TAKEN_UP = 4;
-constexpr int WALKS = 3;
 
 /** \brief A pose that is less certain than this does not overrule viewpoints, and one that is
  * more certain with them than that is not overruled. */
@@ -72,11 +58,11 @@ public:
         inlier_distance_(inlier_distance),
         half_side_(half_side),
         pool_(pool),
-        look_(clouds_, POINTS, TOLERANCE, MARGIN),
-        look_closely_(clouds_, POINTS_FOR_BEST, TOLERANCE, MARGIN)
+        look_(clouds_, AT_EACH),
+        look_closely_(clouds_, AT_THE_BEST)
   {
     if (clouds_.mayRepeat())
-      look_without_sides_.emplace(without_sides_, POINTS, TOLERANCE, MARGIN);
+      look_without_sides_.emplace(without_sides_, AT_EACH);
   }
 
   /** \brief Takes up what is new among the first so many of a list. */
@@ -145,40 +131,6 @@ private:
     });
   }
 
-  /** \brief What speaks for a pose, as a logarithm. */
-  static double
-  weightOf(const CheckedPose& pose)
-  {
-    return evidenceOf(pose.agreement) + 0.5 * std::log(pose.support + 5.0);
-  }
-
-  /** \brief How much of a rival another pose is: 1 for one that explains as much.
-   *
-   * Where a place looks the same from elsewhere, the clouds say so; more correspondences
-   * then speak for one pose than for another because the scans' patterns of points meet
-   * there. A few dozen for the other one are enough, and the more there are, the less
-   * the clouds have to agree. */
-  static double
-  loudnessOf(const CheckedPose& rival, const CheckedPose& pose)
-  {
-    constexpr double BY_ALL = 4;
-    const double lead = weightOf(pose) - weightOf(rival);
-    const double lead_by_clouds =
-        evidenceOf(pose.agreement) - evidenceOf(rival.agreement);
-    return std::max(std::exp(-BY_ALL * std::max(0.0, lead)),
-                    loudnessByClouds(rival.support, lead_by_clouds));
-  }
-
-  static double
-  loudnessByClouds(double support, double lead)
-  {
-    constexpr double MOST = 8, LEAST = 3, A_FEW_DOZEN = 60;
-    const double dozens = support / A_FEW_DOZEN;
-    const double steepness = std::clamp(MOST / std::max(dozens, 1e-3), LEAST, MOST);
-    const double supported = 1 - 1 / (1 + std::pow(dozens, 4));
-    return supported * std::exp(-steepness * std::max(0.0, lead));
-  }
-
   /** \brief All other poses, the first being the best. Sides that may be turned the wrong way
    * don't silence them. */
   double
@@ -191,7 +143,10 @@ private:
     const double firsts = look_without_sides_ ? withoutSides(first) : 0;
     double rivals = 0;
     for (std::size_t i = 1; i < poses.size(); ++i) {
-      double loudness = loudnessOf(poses[i], first);
+      double loudness = clouds_.vicinity
+                            ? loudnessInMap(weightOf(first) - weightOf(poses[i]),
+                                            leadByClouds(first, poses[i]))
+                            : loudnessOf(poses[i], first);
       if (look_without_sides_)
         loudness = std::max(
             loudness,
@@ -259,16 +214,11 @@ private:
     evidence.one_viewpoint = clouds_.viewpoints() == 1;
     evidence.in_map = clouds_.vicinity != nullptr;
     evidence.agreement = look_closely_(first.pose);
-    evidence.lead = MAX_LEAD;
     // They are in order.
-    if (findings.poses.size() > 1)
-      evidence.lead =
-          std::min(evidence.lead, weightOf(first) - weightOf(findings.poses[1]));
+    evidence.lead =
+        leadOf(first, findings.poses.size() > 1 ? &findings.poses[1] : nullptr);
     evidence.rivals = rivalsOf(findings.poses);
-    evidence.hold = walks_.empty() ? 0 : MAX_HOLD;
-    for (const Walk& walk : walks_)
-      evidence.hold = std::min(evidence.hold, -walk.rise());
-    evidence.stiffness = walks_.empty() ? 0 : walks_.front().motion.stiffness;
+    addWalks(walks_, evidence);
     findings.free_motions = freeMotionsOf(walks_);
     return findings;
   }
@@ -349,9 +299,15 @@ CloudCheck::addPoses(const std::vector<Pose>& hypotheses,
 }
 
 void
+CloudCheck::addTwins(const std::vector<Pose>& twins, std::size_t screened)
+{
+  screen(clouds_, twins, half_side_, screened, list_, pool_);
+}
+
+void
 CloudCheck::addOverruled(CloudFindings& findings) const
 {
-  const Look look(clouds_, POINTS, TOLERANCE, MARGIN);
+  const Look look(clouds_, AT_EACH);
   pool_.forEach(findings.poses.size(), [&](std::size_t i, std::size_t) {
     CheckedPose& checked = findings.poses[i];
     checked.agreement.contradicted = look(checked.pose).contradicted;

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "judgement/cpu/agreement.h"
+#include "judgement/standing.h"
 #include "support/thread_pool.h"
 #include "estimation/problem.h"
 
@@ -14,12 +14,18 @@
 
 namespace pcl_flashreg {
 
+/** \brief How closely clouds look at each pose, and at the best. Moved onto the surface, a pose
+ * is exact enough for a thinner margin than while it is screened. */
+constexpr LookSettings AT_EACH{1000, 1.5f, 2}, AT_THE_BEST{4000, 1.5f, 2};
+
+/** \brief Poses that are taken up along the way off the best one, and how often that may be
+ * another one then. */
+constexpr std::size_t TAKEN_UP = 4;
+constexpr int WALKS = 3;
+
 /** \brief A pose that was brought before the clouds. */
-struct CheckedPose {
+struct CheckedPose : Standing {
   Pose pose;
-  CloudAgreement agreement;
-  /** \brief Correspondences that agree; of several sets of them, the mean. */
-  double support = 0;
 };
 
 /** \brief What the clouds have to say. */
@@ -65,6 +71,12 @@ public:
   addPoses(const std::vector<Pose>& hypotheses,
            const std::vector<ScoredPose>& favourites,
            std::size_t screened);
+
+  /** \brief In a map, what else turns the source as poses that are known.
+   * \param[in] twins to be screened
+   * \param[in] screened how many may pass it */
+  void
+  addTwins(const std::vector<Pose>& twins, std::size_t screened);
 
   /** \return no pose, if there was none or a cloud has no points */
   CloudFindings

@@ -11,11 +11,8 @@
 namespace pcl_flashreg {
 namespace {
 
-/** \brief A pose that has not been moved onto the surface yet is off by a spacing or two,
- * which the wider tolerance makes up for. */
-constexpr float TOLERANCE = 2, MARGIN = 3;
-/** \brief Points of a cloud that are looked at first, and where that went well. */
-constexpr std::size_t GLANCE = 24, CLOSER_LOOK = 128;
+/** \brief How closely all hypotheses are looked at first. */
+constexpr LookSettings GLANCE{24, WHILE_SCREENING.tolerance, WHILE_SCREENING.margin};
 
 /** \brief Hypotheses that pass the first screening. */
 constexpr std::size_t AFTER_GLANCE = 400;
@@ -36,13 +33,6 @@ better(const Ranked& a, const Ranked& b)
          (a.evidence == b.evidence && a.hypothesis < b.hypothesis);
 }
 
-double
-shareOf(const CloudAgreement& agreement)
-{
-  return agreement.matched /
-         (agreement.matched + agreement.contradicted + NOTHING_TOLD);
-}
-
 void
 rank(const Look& look,
      const std::vector<Pose>& hypotheses,
@@ -60,6 +50,13 @@ rank(const Look& look,
 
 } // namespace
 
+double
+shareOf(const CloudAgreement& agreement)
+{
+  return agreement.matched /
+         (agreement.matched + agreement.contradicted + NOTHING_TOLD);
+}
+
 void
 screen(const SurfacePair& clouds,
        const std::vector<Pose>& hypotheses,
@@ -72,12 +69,12 @@ screen(const SurfacePair& clouds,
   for (std::size_t i = 0; i < ranked.size(); ++i)
     ranked[i].hypothesis = static_cast<std::uint32_t>(i);
   if (ranked.size() > AFTER_GLANCE) {
-    rank(Look(clouds, GLANCE, TOLERANCE, MARGIN), hypotheses, ranked, pool);
+    rank(Look(clouds, GLANCE), hypotheses, ranked, pool);
     std::nth_element(
         ranked.begin(), ranked.begin() + AFTER_GLANCE, ranked.end(), better);
     ranked.resize(AFTER_GLANCE);
   }
-  rank(Look(clouds, CLOSER_LOOK, TOLERANCE, MARGIN), hypotheses, ranked, pool);
+  rank(Look(clouds, WHILE_SCREENING), hypotheses, ranked, pool);
   std::sort(ranked.begin(), ranked.end(), better);
   const std::size_t wanted = list.size() + most;
   for (const Ranked& entry : ranked) {

@@ -10,6 +10,14 @@
 
 namespace pcl_flashreg {
 
+/** \brief How closely those are looked at that a glance leaves. A pose that has not been moved
+ * onto the surface yet is off by a spacing or two, which the wider tolerance makes up for. */
+constexpr LookSettings WHILE_SCREENING{128, 2, 3};
+
+/** \brief What speaks for a pose while it is screened, from 0 to 1. */
+double
+shareOf(const CloudAgreement& agreement);
+
 /** \brief Appends the best of thousands of hypotheses, by the clouds alone and on a few
  * points, which differ from each other and from those in the list.
  * \param[in] half_side see displacementOf()

@@ -12,10 +12,6 @@
 namespace pcl_flashreg {
 namespace {
 
-/** \brief See Look. */
-constexpr std::size_t POINTS = 256;
-constexpr float TOLERANCE = 2, MARGIN = 3;
-
 constexpr std::size_t MOTIONS = 3;
 /** \brief A motion that the surfaces oppose more than this is not tried, unless it is the
  * softest. */
@@ -62,21 +58,41 @@ Walk::rise() const
 }
 
 std::vector<Walk>
-walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool)
+walkOff(const std::vector<Motion>& motions,
+        const Pose& pose,
+        float spacing,
+        const std::function<CloudAgreement(const Pose&)>& look,
+        ThreadPool& pool)
 {
   std::vector<Walk> walks;
-  for (const Motion& motion : principalMotions(clouds, pose))
+  for (const Motion& motion : motions)
     if (walks.empty() || (walks.size() < MOTIONS && motion.stiffness <= SOFT))
-      walks.push_back(planned(motion, pose, clouds.spacing));
+      walks.push_back(planned(motion, pose, spacing));
   std::vector<Stop*> stops;
   for (Walk& walk : walks)
     for (Stop& stop : walk.stops)
       stops.push_back(&stop);
-  const Look look(clouds, POINTS, TOLERANCE, MARGIN);
   pool.forEach(stops.size(), [&](std::size_t i, std::size_t) {
     stops[i]->agreement = look(stops[i]->pose);
   });
   return walks;
+}
+
+std::vector<Walk>
+walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool)
+{
+  const Look look(clouds, ON_THE_WAY);
+  return walkOff(principalMotions(clouds, pose), pose, clouds.spacing, look, pool);
+}
+
+void
+addWalks(const std::vector<Walk>& walks, Evidence& evidence)
+{
+  constexpr double MOST_HOLD = 5;
+  evidence.hold = walks.empty() ? 0 : MOST_HOLD;
+  for (const Walk& walk : walks)
+    evidence.hold = std::min(evidence.hold, -walk.rise());
+  evidence.stiffness = walks.empty() ? 0 : walks.front().motion.stiffness;
 }
 
 std::vector<Pose>

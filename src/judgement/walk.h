@@ -6,6 +6,9 @@
 #include "judgement/cpu/principal_motions.h"
 #include "support/thread_pool.h"
 
+#include <pcl_flashreg/result.h>
+
+#include <functional>
 #include <vector>
 
 namespace pcl_flashreg {
@@ -41,6 +44,22 @@ struct Walk {
  * clouds say the same all along, or again some way off, they don't say where the pose is. */
 std::vector<Walk>
 walkOff(const SurfacePair& clouds, const Pose& pose, ThreadPool& pool);
+
+/** \brief The same for whoever has other clouds to ask, by any number of threads at a time.
+ * \param[in] motions the softest first; none where nothing matches */
+std::vector<Walk>
+walkOff(const std::vector<Motion>& motions,
+        const Pose& pose,
+        float spacing,
+        const std::function<CloudAgreement(const Pose&)>& look,
+        ThreadPool& pool);
+
+/** \brief How closely clouds are looked at on the way. */
+constexpr LookSettings ON_THE_WAY{256, 2, 3};
+
+/** \brief Evidence::hold and Evidence::stiffness of the pose that was walked off. */
+void
+addWalks(const std::vector<Walk>& walks, Evidence& evidence);
 
 /** \brief Where clouds that were walked over say most, far off: at most `most` poses, the best
  * first, and none that tilts much more than it may. */

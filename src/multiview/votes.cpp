@@ -3,7 +3,7 @@
 
 #include "multiview/votes.h"
 
-#include <Eigen/SVD>
+#include "multiview/mean_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,35 +56,22 @@ betweenGroups(const PairVotes& pair,
 }
 
 /** \brief The pose of the moving group that fits best to where its supporters put its scans,
- * each by its probability: the rotation that is nearest to the mean of theirs. */
+ * each by its probability. */
 Eigen::Isometry3d
 meanOf(const Eigen::Isometry3d& T_fixed_moving,
        const std::vector<GroupVotes>& pairs,
        const MapPoses& poses,
        double spacing)
 {
-  Eigen::Matrix3d turns = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = from;
-  double sum = 0;
+  MeanMotion mean;
   for (const GroupVotes& pair : pairs)
-    for (const GroupVote& vote : pair.votes) {
-      if (!samePlace(vote.place, T_fixed_moving * poses[pair.moving], spacing))
-        continue;
-      turns += vote.probability * vote.T_fixed_moving.linear();
-      from += vote.probability * poses[pair.moving].translation();
-      to += vote.probability * vote.place.translation();
-      sum += vote.probability;
-    }
-  if (!(sum > 0))
-    return T_fixed_moving;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-      turns, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d flip = Eigen::Matrix3d::Identity();
-  flip(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-  Eigen::Isometry3d mean = Eigen::Isometry3d::Identity();
-  mean.linear() = svd.matrixU() * flip * svd.matrixV().transpose();
-  mean.translation() = (to - mean.linear() * from) / sum;
-  return mean;
+    for (const GroupVote& vote : pair.votes)
+      if (samePlace(vote.place, T_fixed_moving * poses[pair.moving], spacing))
+        mean.add(vote.probability,
+                 vote.T_fixed_moving.linear(),
+                 poses[pair.moving].translation(),
+                 vote.place.translation());
+  return mean.weight() > 0 ? mean.get() : T_fixed_moving;
 }
 
 Placement

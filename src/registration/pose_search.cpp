@@ -7,6 +7,7 @@
 #include "judgement/evidence.h"
 #include "judgement/mirror.h"
 #include "judgement/tilt.h"
+#include "judgement/twins.h"
 #include "estimation/check_correspondences.h"
 #include "estimation/information.h"
 #include "estimation/part.h"
@@ -47,6 +48,11 @@ struct Passing {
 /** \brief Of a second look, and of one at a part of a map, of which there are many. */
 constexpr Passing OF_OTHERS{8, SCREENED}, OF_PLACE{3, 4};
 constexpr int PIVOTS_OF_PLACE = 500;
+
+/** \brief Places with the same turn that are looked for, and which of them pass the screening;
+ * what is less certain needs no rivals. */
+constexpr std::size_t TWINS = 16;
+constexpr double WITHOUT_TWINS = 0.05;
 
 /** \brief After so many looks the clouds are asked again. */
 constexpr std::size_t AT_A_TIME = 8;
@@ -196,6 +202,21 @@ PoseSearch::lookAgain(const SecondLook& second_look,
   return true;
 }
 
+/** \brief What the clouds say; in a map, with the places in mind that look the same. */
+CloudFindings
+PoseSearch::judged(const Parameters& parameters, CloudCheck& check) const
+{
+  CloudFindings findings = check.judge();
+  if (!findings.evidence.in_map ||
+      confidenceOfClouds(findings.evidence) < WITHOUT_TWINS)
+    return findings;
+  std::vector<Pose> known;
+  for (const CheckedPose& checked : findings.poses)
+    known.push_back(checked.pose);
+  check.addTwins(twinsOf(problem_, known, parameters.inlier_distance, TWINS), TWINS);
+  return check.judge();
+}
+
 /** \brief Replaces the hypotheses by those that stand before the clouds, unless the best
  * of these has less than three inliers. */
 CloudFindings
@@ -209,14 +230,14 @@ PoseSearch::askClouds(const JudgingClouds& clouds,
   CloudCheck check(surfaces, parameters.inlier_distance, clouds.give_up_early, pool_);
   check.addWitnesses(problem_);
   check.addPoses(estimate.candidates, estimate.hypotheses, SCREENED);
-  CloudFindings findings = check.judge();
+  CloudFindings findings = judged(parameters, check);
   clock.finish(&StageTimings::cloud_check);
   bool may_be_more = static_cast<bool>(second_look);
   for (std::size_t first = 0;
        may_be_more && confidenceOfClouds(findings.evidence) < parameters.min_confidence;
        first += AT_A_TIME) {
     may_be_more = lookAgain(second_look, first, parameters, check);
-    CloudFindings again = check.judge();
+    CloudFindings again = judged(parameters, check);
     again.evidence.second_look = true;
     // Of many poses that nothing speaks for the best is none better than the first.
     if (confidenceOfClouds(again.evidence) > confidenceOfClouds(findings.evidence))

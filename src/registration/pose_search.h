@@ -154,6 +154,8 @@ private:
          const Parameters& parameters,
          Problem& problem,
          CloudCheck& check);
+  CloudFindings
+  judged(const Parameters& parameters, CloudCheck& check) const;
   void
   takeOver(const CloudFindings& findings,
            const Parameters& parameters,

@@ -117,6 +117,12 @@ struct Samples {
   std::size_t stand_for;
 };
 
+/** \brief How closely a Look looks. */
+struct LookSettings {
+  std::size_t points;
+  float tolerance, margin;
+};
+
 /** \brief How two clouds get on with each other under poses, by points of either that stand
  * for the rest. */
 class Look {
@@ -127,6 +133,11 @@ public:
    * \param[in] margin how far in front of what was seen a point must be to contradict it, in
    * spacings */
   Look(const SurfacePair& clouds, std::size_t points, float tolerance, float margin);
+
+  Look(const SurfacePair& clouds, const LookSettings& settings)
+      : Look(clouds, settings.points, settings.tolerance, settings.margin)
+  {
+  }
 
   /** \brief Where one viewpoint alone is known, of the other cloud (a map, a model) there may
    * be any amount out of its sight.

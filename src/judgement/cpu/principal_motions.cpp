@@ -3,8 +3,6 @@
 
 #include "judgement/cpu/principal_motions.h"
 
-#include "judgement/cpu/contacts.h"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -31,11 +29,21 @@ spreadOf(const std::vector<Contact>& contacts, const Eigen::Vector3d& middle)
 
 } // namespace
 
+std::vector<Contact>
+contactsForMotions(const SurfacePair& clouds, const Pose& pose)
+{
+  return contactsOfBoth(clouds, toRigidFloat(pose), TOUCHING);
+}
+
 std::vector<Motion>
 principalMotions(const SurfacePair& clouds, const Pose& pose)
 {
-  const std::vector<Contact> contacts =
-      contactsOfBoth(clouds, toRigidFloat(pose), TOUCHING);
+  return principalMotions(contactsForMotions(clouds, pose));
+}
+
+std::vector<Motion>
+principalMotions(const std::vector<Contact>& contacts)
+{
   if (contacts.size() < MIN_CONTACTS)
     return {};
   const Eigen::Vector3d middle = middleOf(contacts);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "judgement/cpu/agreement.h"
+#include "judgement/cpu/contacts.h"
 
 #include <vector>
 
@@ -27,6 +28,14 @@ struct Motion {
  * algorithm (3DIM 2003): arms in units of their own spread make turns and shifts comparable. */
 std::vector<Motion>
 principalMotions(const SurfacePair& clouds, const Pose& pose);
+
+/** \brief The same of several clouds, in the frame of all their contacts. */
+std::vector<Motion>
+principalMotions(const std::vector<Contact>& contacts);
+
+/** \brief What tells the motions of a pose: what either cloud's points touch. */
+std::vector<Contact>
+contactsForMotions(const SurfacePair& clouds, const Pose& pose);
 
 /** \brief The pose, moved on along the screw.
  * \param[in] way that the points go, about, in the unit of the clouds */
