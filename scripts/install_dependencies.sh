@@ -17,7 +17,8 @@ case "${1-}" in
     # Doxygen makes the documentation; matplotlib draws evaluations; pkg-config,
     # dpkg-shlibdeps and colcon are for the tests of the package. The Python module takes
     # pybind11, its tests the others of python3-*.
-    optional=(doxygen pybind11-dev python3-dev python3-numpy python3-pytest python3-open3d
+    optional=(doxygen help2man pybind11-dev python3-dev python3-numpy python3-pytest
+      python3-open3d
       python3-matplotlib pkg-config dpkg-dev file
       colcon python3-colcon-cmake python3-colcon-ros
       python3-colcon-recursive-crawl python3-colcon-library-path
