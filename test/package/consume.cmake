@@ -1,5 +1,6 @@
 # Builds and runs consumer/ against the installed CMake package.
 #   COMPONENT  core (with PCL hidden from it) or pcl
+#   VERSION    what it asks for
 #   FLAGS      compiler flags of the consumer
 #   NEEDS      instruction sets that the flags take for granted
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
@@ -20,7 +21,8 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B build
   -D "CMAKE_CXX_FLAGS=${FLAGS}"
   -D CMAKE_PREFIX_PATH=${WORK_DIR}/moved
   -D CMAKE_DISABLE_FIND_PACKAGE_PCL=${hide_pcl}
-  -D CONSUMED=${COMPONENT})
+  -D CONSUMED=${COMPONENT}
+  -D WANTED=${VERSION})
 if(NOT run_output MATCHES "Using .*${WORK_DIR}/moved/")
   message(FATAL_ERROR "another installation was found:\n${run_output}")
 endif()
