@@ -89,7 +89,7 @@ public:
   CloudFindings
   judge(bool give_up_early)
   {
-    std::size_t best = bestOf();
+    std::size_t best = heaviestOf(checked_);
     if (give_up_early) {
       const CloudFindings so_far = findings();
       if (isHopeless(so_far.evidence))
@@ -98,7 +98,7 @@ public:
     walk(best);
     for (int walks = 1; walks < WALKS; ++walks) {
       study(peaksOf(walks_, clouds_.upright, TAKEN_UP));
-      const std::size_t now = bestOf();
+      const std::size_t now = heaviestOf(checked_);
       if (now == best)
         break;
       best = now;
@@ -154,16 +154,6 @@ private:
       rivals += loudness;
     }
     return rivals;
-  }
-
-  std::size_t
-  bestOf() const
-  {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < checked_.size(); ++i)
-      if (weightOf(checked_[i]) > weightOf(checked_[best]))
-        best = i;
-    return best;
   }
 
   /** \brief Off this pose, unless that is where the last walk went. */

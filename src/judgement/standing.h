@@ -7,6 +7,8 @@
 
 #include <pcl_flashreg/cloud_view.h>
 
+#include <cstddef>
+
 namespace pcl_flashreg {
 
 /** \brief What a pose has on its side, before the clouds. */
@@ -19,6 +21,19 @@ struct Standing {
 /** \brief What speaks for a pose, as a logarithm. */
 double
 weightOf(const Standing& pose);
+
+/** \brief Where the one is that most speaks for, the first of equals.
+ * \param[in] poses Standings, or more; at least one */
+template <typename Poses>
+std::size_t
+heaviestOf(const Poses& poses)
+{
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    if (weightOf(poses[i]) > weightOf(poses[best]))
+      best = i;
+  return best;
+}
 
 /** \brief By how much what the clouds say for a pose exceeds what they say for another one, as a
  * logarithm. */

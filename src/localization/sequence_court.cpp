@@ -118,16 +118,6 @@ SequenceCourt::addSupport(PlacedSequence& placement) const
   }
 }
 
-std::size_t
-SequenceCourt::bestOf() const
-{
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < placements_.size(); ++i)
-    if (weightOf(placements_[i]) > weightOf(placements_[best]))
-      best = i;
-  return best;
-}
-
 /** \brief Off this placement, unless that is where the last walk went: all scans are moved
  * together. */
 void
@@ -206,11 +196,11 @@ SequenceCourt::judge()
   study(screened());
   if (placements_.empty())
     return {};
-  std::size_t best = bestOf();
+  std::size_t best = heaviestOf(placements_);
   walk(best);
   for (int walks = 1; walks < WALKS; ++walks) {
     study(peaks(best));
-    const std::size_t now = bestOf();
+    const std::size_t now = heaviestOf(placements_);
     if (now == best)
       break;
     best = now;

@@ -66,8 +66,6 @@ private:
   study(const std::vector<Hypothesis>& hypotheses);
   void
   addSupport(PlacedSequence& placement) const;
-  std::size_t
-  bestOf() const;
   void
   walk(std::size_t placement);
   std::vector<Hypothesis>
