@@ -2,7 +2,6 @@
 // Copyright (c) the pcl_flashreg authors
 
 // Correspondences that a network left in the memory of a GPU: to a pose, which stays there.
-// Nothing of pcl_flashreg needs CUDA's headers; this file does, to have such memory at all.
 
 #include <pcl_flashreg/estimator.h>
 
@@ -42,7 +41,6 @@ main()
   pcl_flashreg::Estimator estimator(pcl_flashreg::BackendKind::Cuda);
   const pcl_flashreg::Result result = estimator.estimate(
       correspondences, pcl_flashreg::Parameters::fromResolution(0.05));
-
   // What comes after in the stream finds the pose: here, a copy to the host.
   float T[16];
   cudaMemcpyAsync(T, on_device[2], sizeof T, cudaMemcpyDeviceToHost, stream);
