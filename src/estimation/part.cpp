@@ -43,7 +43,7 @@ takeLeftover(const Problem& problem,
              Problem& leftover)
 {
   const std::vector<int> explained =
-      cpu::ResidualTest(cpu::selectKernels(), problem, limit).rows(toSingle(pose));
+      cpu::ResidualTest(cpu::usualKernels(), problem, limit).rows(toSingle(pose));
   std::vector<std::size_t> rows;
   std::size_t next = 0;
   for (std::size_t i = 0; i < problem.size; ++i)

@@ -173,28 +173,12 @@ private:
            std::min(SAME * clouds_.spacing, SAME_OF_SMALL * half_side_);
   }
 
-  /** \brief One of each, the best first. */
-  std::vector<CheckedPose>
-  distinct() const
-  {
-    std::vector<CheckedPose> sorted = checked_;
-    std::stable_sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) {
-      return weightOf(a) > weightOf(b);
-    });
-    std::vector<CheckedPose> poses;
-    for (const CheckedPose& pose : sorted)
-      if (std::none_of(poses.begin(), poses.end(), [&](const CheckedPose& other) {
-            return same(pose.pose, other.pose);
-          }))
-        poses.push_back(pose);
-    return poses;
-  }
-
   CloudFindings
   findings() const
   {
     CloudFindings findings;
-    findings.poses = distinct();
+    findings.poses = distinctOf(
+        checked_, [&](const auto& a, const auto& b) { return same(a.pose, b.pose); });
     const CheckedPose& first = findings.poses.front();
     Evidence& evidence = findings.evidence;
     evidence.inliers = first.support;

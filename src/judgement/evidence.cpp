@@ -53,7 +53,7 @@ shareOfAllPairs(const Problem& problem,
 {
   constexpr std::size_t SOURCES = 128, SOURCES_A_TASK = 8;
   const std::size_t looked_at = std::min(SOURCES, problem.size);
-  const cpu::ResidualTest test(cpu::selectKernels(), problem, inlier_distance);
+  const cpu::ResidualTest test(cpu::usualKernels(), problem, inlier_distance);
   std::array<std::size_t, SOURCES / SOURCES_A_TASK> near{};
   pool.forEach(near.size(), [&](std::size_t task, std::size_t) {
     const std::size_t begin = task * SOURCES_A_TASK;
@@ -106,7 +106,7 @@ logOfTail(double hits, double draws, double share)
 std::vector<int>
 inliersOf(const Problem& problem, const Pose& pose, float inlier_distance)
 {
-  return cpu::ResidualTest(cpu::selectKernels(), problem, inlier_distance)
+  return cpu::ResidualTest(cpu::usualKernels(), problem, inlier_distance)
       .rows(toSingle(pose));
 }
 

@@ -76,7 +76,7 @@ bestReflection(const Problem& problem,
   std::iota(all.begin(), all.end(), std::size_t{0});
   Problem asked;
   takeRows(problem, all, ASKED, asked);
-  const cpu::ResidualTest test(cpu::selectKernels(), asked, inlier_distance);
+  const cpu::ResidualTest test(cpu::usualKernels(), asked, inlier_distance);
   std::vector<Pose> reflections(cliques.size());
   std::vector<std::pair<int, std::size_t>> ranked(cliques.size());
   pool.forEach(cliques.size(), [&](std::size_t c, std::size_t) {

@@ -7,6 +7,12 @@
 #include <cmath>
 
 namespace pcl_flashreg {
+namespace {
+
+/** \brief How fast a rival falls silent as all that speaks for the pose leads. */
+constexpr double BY_ALL = 4;
+
+} // namespace
 
 double
 weightOf(const Standing& pose)
@@ -20,12 +26,6 @@ leadOf(const Standing& best, const Standing* next)
   constexpr double MOST = 5;
   return next ? std::min(MOST, weightOf(best) - weightOf(*next)) : MOST;
 }
-
-namespace {
-
-constexpr double BY_ALL = 4;
-
-} // namespace
 
 double
 leadByClouds(const Standing& pose, const Standing& other)

@@ -7,7 +7,9 @@
 
 #include <pcl_flashreg/cloud_view.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace pcl_flashreg {
 
@@ -33,6 +35,25 @@ heaviestOf(const Poses& poses)
     if (weightOf(poses[i]) > weightOf(poses[best]))
       best = i;
   return best;
+}
+
+/** \brief One of each, the one that most speaks for first.
+ * \param[in] poses Standings, or more
+ * \param[in] same whether two of them are the same */
+template <typename Pose, typename Same>
+std::vector<Pose>
+distinctOf(std::vector<Pose> poses, const Same& same)
+{
+  std::stable_sort(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) {
+    return weightOf(a) > weightOf(b);
+  });
+  std::vector<Pose> distinct;
+  for (const Pose& pose : poses)
+    if (std::none_of(distinct.begin(), distinct.end(), [&](const Pose& other) {
+          return same(pose, other);
+        }))
+      distinct.push_back(pose);
+  return distinct;
 }
 
 /** \brief By how much what the clouds say for a pose exceeds what they say for another one, as a

@@ -24,12 +24,6 @@ believedView(const SequenceScan& scan)
   return view;
 }
 
-Eigen::Vector3d
-toEigen(const Vec3& v)
-{
-  return {v.x, v.y, v.z};
-}
-
 } // namespace
 
 SequenceClouds::Member::Member(const SequenceScan& scan,

@@ -146,27 +146,13 @@ SequenceCourt::peaks(std::size_t placement) const
   return result;
 }
 
-std::vector<PlacedSequence>
-SequenceCourt::distinct() const
-{
-  std::vector<PlacedSequence> sorted = placements_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
-    return weightOf(a) > weightOf(b);
-  });
-  std::vector<PlacedSequence> result;
-  for (const PlacedSequence& placement : sorted)
-    if (std::none_of(result.begin(), result.end(), [&](const auto& other) {
-          return clouds_.same(placement.places, other.places);
-        }))
-      result.push_back(placement);
-  return result;
-}
-
 SequenceFindings
 SequenceCourt::findings() const
 {
   SequenceFindings findings;
-  findings.placements = distinct();
+  findings.placements = distinctOf(placements_, [&](const auto& a, const auto& b) {
+    return clouds_.same(a.places, b.places);
+  });
   const std::vector<PlacedSequence>& placements = findings.placements;
   const PlacedSequence& first = placements.front();
   Evidence& evidence = findings.evidence;

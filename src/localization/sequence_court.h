@@ -70,8 +70,6 @@ private:
   walk(std::size_t placement);
   std::vector<Hypothesis>
   peaks(std::size_t placement) const;
-  std::vector<PlacedSequence>
-  distinct() const;
   SequenceFindings
   findings() const;
 

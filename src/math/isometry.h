@@ -9,6 +9,12 @@
 
 namespace pcl_flashreg {
 
+inline Eigen::Vector3d
+toEigen(const Vec3& v)
+{
+  return {v.x, v.y, v.z};
+}
+
 inline Pose
 toPose(const Eigen::Isometry3d& T)
 {

@@ -3,6 +3,7 @@
 
 #include "multiview/map_scans.h"
 
+#include "math/isometry.h"
 #include "scan/scan_view.h"
 
 #include <algorithm>
@@ -23,8 +24,7 @@ MapScans::MapScans(std::size_t count,
   pool.forEach(count, [&](std::size_t i, std::size_t) {
     const Scan scan = source_(i);
     MapScan& entry = scans_[i];
-    const Vec3 middle = middleOf(viewOf(scan)) + shiftOf(scan);
-    entry.middle = {middle.x, middle.y, middle.z};
+    entry.middle = toEigen(middleOf(viewOf(scan)) + shiftOf(scan));
     entry.spacing = scan.spacing();
     const auto surface = make(scan, i);
     entry.points = surface->points.size();

@@ -12,6 +12,7 @@
 #include "estimation/information.h"
 #include "estimation/part.h"
 #include "math/distinctness.h"
+#include "math/isometry.h"
 #include "registration/choose_backend.h"
 
 #include <algorithm>
@@ -24,12 +25,6 @@ Eigen::Matrix3d
 rotationOf(const Pose& T)
 {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(T.r);
-}
-
-Eigen::Vector3d
-toEigen(const Vec3& v)
-{
-  return {v.x, v.y, v.z};
 }
 
 /** \brief Hypotheses that the verdict needs to see: rivals for the correspondences, and

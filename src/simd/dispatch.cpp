@@ -82,5 +82,12 @@ selectKernels()
                               ": unknown; known are auto, scalar, avx2, avx512, neon");
 }
 
+const Kernels&
+usualKernels()
+{
+  static const Kernels& chosen = selectKernels();
+  return chosen;
+}
+
 } // namespace cpu
 } // namespace pcl_flashreg

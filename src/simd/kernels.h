@@ -213,5 +213,12 @@ scalarKernels();
 const Kernels&
 selectKernels();
 
+/** \brief What selectKernels() returned when it was first asked here: for what is no part of an
+ * estimator, in loops that should not look into the environment. All variants agree to the last
+ * bit.
+ * \throws as selectKernels(), the first time */
+const Kernels&
+usualKernels();
+
 } // namespace cpu
 } // namespace pcl_flashreg
