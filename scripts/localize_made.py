@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) the pcl_flashreg authors
 """Looks for scans in maps of made places, and says how many were found: ten streets whose
-houses are copies of six, in one map; more of these, of twenty million points; halls whose aisles are the same, where a scan in an aisle
-must not be trusted, one at the hall's end is to be found, and so is a sequence of five that
-leads there. pcl_flashreg_localize must be on the PATH. Needs numpy.
+houses are copies of six, in one map; more of these, of twenty million points; halls whose
+aisles are the same, where a scan in an aisle must not be trusted, one at the hall's end is to
+be found, and so is a sequence of five that leads there. pcl_flashreg_localize must be on the PATH. Needs numpy.
 
     scripts/localize_made.py streets OUT
     scripts/localize_made.py warehouse OUT --seeds 10 11 12
@@ -13,13 +13,13 @@ leads there. pcl_flashreg_localize must be on the PATH. Needs numpy.
 import argparse
 import json
 import os
-import statistics
 import subprocess
 import tempfile
 
 import numpy as np
 
 import made_places as made
+from localization_score import Score, locate, print_head
 from pcd_files import write_pcd
 
 LEAF = 0.3
@@ -30,53 +30,6 @@ A_FEW = 4  # only every so manieth of its scans
 MAX_DEGREES, MAX_METRES = 5, 0.6  # of a right pose
 DRIFT = 0.01  # of the way, and this many radians a metre
 TURN_DRIFT = 0.001
-
-
-def is_right(found, true):
-    turn = found[:3, :3].T @ true[:3, :3]
-    cosine = np.clip((np.trace(turn) - 1) / 2, -1, 1)
-    shift = np.linalg.norm(found[:3, 3] - true[:3, 3])
-    return np.degrees(np.arccos(cosine)) < MAX_DEGREES and shift < MAX_METRES
-
-
-def locate(map_file, scans, options=()):
-    """The lines of the program."""
-    command = ["pcl_flashreg_localize", map_file, "--quiet", "--leaf", str(LEAF)]
-    run = subprocess.run(command + list(options) + scans, stdout=subprocess.PIPE, text=True)
-    if run.returncode > 1:
-        raise SystemExit("%s: exit code %d" % (" ".join(command), run.returncode))
-    return [json.loads(line) for line in run.stdout.splitlines()]
-
-
-class Score:
-    def __init__(self):
-        self.all = self.right = self.trusted = self.wrong = 0
-        self.times = []
-
-    def add(self, line, true):
-        right = "transformation" in line and is_right(np.array(line["transformation"]), true)
-        self.all += 1
-        self.right += right
-        self.trusted += line["converged"] and right
-        self.wrong += line["converged"] and not right
-        self.times.append(line["timings_ms"]["placing"])
-
-    def row(self, name):
-        times = sorted(self.times)
-        return "| %s | %d | %d | %d | %d | %.0f | %.0f |" % (
-            name,
-            self.all,
-            self.right,
-            self.trusted,
-            self.wrong,
-            statistics.median(times),
-            times[int(0.95 * len(times))],
-        )
-
-
-def print_head(what):
-    print("| %s | n | right | of these trusted | trusted and wrong | median ms | 95 %% |" % what)
-    print("|---|---|---|---|---|---|---|")
 
 
 def write_scans(out, name, shapes, poses, rng):
@@ -110,8 +63,8 @@ def make_streets(out, count, scans, rng, most=None):
 def run_streets(options, seed):
     rng = np.random.default_rng(seed)
     map_file, count, paths, poses = make_streets(options.out, STREETS, options.scans, rng)
-    score = Score()
-    for line, true in zip(locate(map_file, paths, options.more), poses):
+    score = Score(MAX_DEGREES, MAX_METRES)
+    for line, true in zip(locate(map_file, paths, LEAF, options.more), poses):
         score.add(line, true)
     print(score.row("streets, seed %d, %d points" % (seed, count)), flush=True)
 
@@ -142,7 +95,7 @@ def run_large(options, seed):
     program = ["pcl_flashreg_localize", map_file, "--index", index, "--leaf", str(LEAF)]
     for what in ("made", "opened"):
         out, notes, memory = timed(program + list(options.more) + paths)
-        score = Score()
+        score = Score(MAX_DEGREES, MAX_METRES)
         for line, true in zip(map(json.loads, out.splitlines()), poses):
             score.add(line, true)
         print("index %s: %d points, peak memory %.0f MB" % (what, count, memory))
@@ -175,7 +128,7 @@ def run_sequence(options, name, map_file, shapes, poses, rng, scores):
     odometry = drifting(poses, rng)
     file = os.path.join(options.out, name + ".kitti")
     write_kitti(file, odometry)
-    lines = locate(map_file, paths, list(options.more) + ["--sequence", file])
+    lines = locate(map_file, paths, LEAF, list(options.more) + ["--sequence", file])
     for line, true in zip(lines, poses):
         alone = dict(line["alone"], timings_ms=line["timings_ms"])
         scores[name + ", each alone"].add(alone, true)
@@ -210,7 +163,7 @@ def run_warehouse(options, seed, scores):
         for k in range(made.AISLES)
     ]
     paths = write_scans(options.out, "end", shapes, poses, rng)
-    for line, true in zip(locate(map_file, paths, options.more), poses):
+    for line, true in zip(locate(map_file, paths, LEAF, options.more), poses):
         scores["a scan at the hall's end"].add(line, true)
 
 
@@ -230,7 +183,8 @@ def main():
         return
     names = ["within an aisle, each alone", "within an aisle, together"]
     names += ["to the hall's end, each alone", "to the hall's end, together"]
-    scores = {name: Score() for name in names + ["a scan at the hall's end"]}
+    names.append("a scan at the hall's end")
+    scores = {name: Score(MAX_DEGREES, MAX_METRES) for name in names}
     for seed in options.seeds:
         run_warehouse(options, seed, scores)
     print_head("scans")

@@ -11,13 +11,11 @@ map of all others. pcl_flashreg_localize must be on the PATH. Needs numpy.
 """
 
 import argparse
-import json
 import os
-import statistics
-import subprocess
 
 import numpy as np
 
+from localization_score import Score, locate, print_head
 from pcd_files import read_pcd, write_pcd
 from scans_against_maps import chain, read_pairs, thinned
 
@@ -26,22 +24,11 @@ MAX_DEGREES, MAX_METRES = 15, 0.3  # of a right pose
 APART = 25.0  # metres between scenes that stand side by side
 
 
-def is_right(found, true):
-    turn = found[:3, :3].T @ true[:3, :3]
-    cosine = np.clip((np.trace(turn) - 1) / 2, -1, 1)
-    shift = np.linalg.norm(found[:3, 3] - true[:3, 3])
-    return np.degrees(np.arccos(cosine)) < MAX_DEGREES and shift < MAX_METRES
-
-
-def locate(points, scans, out, options):
+def locate_in(points, scans, out, options):
     """The program's lines for scans in a map of these points."""
     path = os.path.join(out, "map.pcd")
     write_pcd(path, thinned(points))
-    command = ["pcl_flashreg_localize", path, "--leaf", str(LEAF), "--quiet"]
-    run = subprocess.run(command + options + scans, stdout=subprocess.PIPE, text=True)
-    if run.returncode > 1:
-        raise SystemExit("%s: exit code %d" % (" ".join(command), run.returncode))
-    return [json.loads(line) for line in run.stdout.splitlines()]
+    return locate(path, scans, LEAF, options)
 
 
 def locate_together(points, paths, true_poses, out):
@@ -52,42 +39,15 @@ def locate_together(points, paths, true_poses, out):
         for T in true_poses:
             own = np.linalg.inv(true_poses[0]) @ T
             rows.write(" ".join("%.9g" % value for value in own[:3].ravel()) + "\n")
-    lines = locate(points, paths, out, ["--sequence", file])
+    lines = locate_in(points, paths, out, ["--sequence", file])
     # Together all are right, or none: the last line is of the sequence.
     whole = dict(lines[0], timings_ms=lines[-1]["timings_ms"])
     alone = [dict(line["alone"], timings_ms=line["timings_ms"]) for line in lines[:-1]]
     return alone, whole
 
 
-class Score:
-    def __init__(self):
-        self.all = self.right = self.trusted = self.wrong = 0
-        self.times = []
-
-    def add(self, line, true):
-        right = true is not None and "transformation" in line
-        right = right and is_right(np.array(line["transformation"]), true)
-        self.all += 1
-        self.right += right
-        self.trusted += line["converged"] and right
-        self.wrong += line["converged"] and not right
-        self.times.append(line["timings_ms"]["placing"])
-
-    def row(self, name):
-        times = sorted(self.times)
-        return "| %s | %d | %.1f %% | %d | %d | %.0f | %.0f |" % (
-            name,
-            self.all,
-            100 * self.right / self.all,
-            self.trusted,
-            self.wrong,
-            statistics.median(times),
-            times[int(0.95 * len(times))],
-        )
-
-
 def run_together(scenes, placed, root, options):
-    scores = {"each alone": Score(), "together": Score()}
+    scores = {name: Score(MAX_DEGREES, MAX_METRES) for name in ("each alone", "together")}
     for poses in scenes.values():
         names = list(poses)
         for first in range(0, len(names) - options.together + 1, options.every):
@@ -100,7 +60,7 @@ def run_together(scenes, placed, root, options):
                 scores["each alone"].add(line, pose)
             scores["together"].add(whole, true[0])
     for name, score in scores.items():
-        print(score.row("%d %s" % (options.together, name)))
+        print(score.row("%d %s" % (options.together, name), in_percent=True))
 
 
 def main():
@@ -131,32 +91,31 @@ def main():
         for poses in scenes.values()
         for path, T in poses.items()
     }
-    print("| scene | fragments | right | of these trusted | trusted and wrong | median ms | 95 % |")
-    print("|---|---|---|---|---|---|---|")
-    total = Score()
+    print_head("scene", "fragments")
+    total = Score(MAX_DEGREES, MAX_METRES)
     if options.together:
         run_together(scenes, placed, root, options)
         return
     for scene, poses in scenes.items():
-        score = Score()
+        score = Score(MAX_DEGREES, MAX_METRES)
         chosen = list(poses)[:: options.every]
         if options.foreign:
             for other, others in scenes.items():
                 if other != scene:
                     points = np.vstack([placed[path] for path in others])
                     scans = [os.path.join(root, path) for path in chosen]
-                    for line in locate(points, scans, options.out, flags):
+                    for line in locate_in(points, scans, options.out, flags):
                         for sum_up in (score, total):
                             sum_up.add(line, None)
         else:
             in_map = placed if options.beside else poses
             for path in chosen:
                 points = np.vstack([placed[other] for other in in_map if other != path])
-                for line in locate(points, [os.path.join(root, path)], options.out, flags):
+                for line in locate_in(points, [os.path.join(root, path)], options.out, flags):
                     for sum_up in (score, total):
                         sum_up.add(line, poses[path])
-        print(score.row(os.path.basename(scene)), flush=True)
-    print(total.row("all"))
+        print(score.row(os.path.basename(scene), in_percent=True), flush=True)
+    print(total.row("all", in_percent=True))
 
 
 if __name__ == "__main__":
